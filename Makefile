@@ -1,0 +1,43 @@
+# Two commands a newcomer needs: `make demo` and `make test`. Each sets up what it needs.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+export PIP_DISABLE_PIP_VERSION_CHECK = 1
+
+.PHONY: demo test lint check-types unit tools goldens clean help
+help:
+	@echo "make demo     the stool, end to end, into out/stool/"
+	@echo "make test     format, lint, types, import rules and all tests"
+	@echo "make tools    the independent readers hp2xx and LibreCAD (Debian, as root)"
+	@echo "make goldens  rewrite the golden files after a wanted change"
+
+$(READY): pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet -c constraints.txt -e ".[all,dev]"
+	@touch $(READY)
+
+demo: $(READY)
+	$(BIN)/python -m foldmill_fabricate demo -o out/stool
+
+test: lint check-types unit
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+
+check-types: $(READY)
+	$(BIN)/mypy
+
+unit: $(READY)
+	$(BIN)/python -m pytest -n auto $(PYTEST_ARGS)
+
+goldens: $(READY)
+	$(BIN)/python -m pytest -n 0 --update-goldens $(PYTEST_ARGS)
+
+tools:
+	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb
+
+clean:
+	rm -rf $(VENV) out

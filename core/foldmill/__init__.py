@@ -1,0 +1,44 @@
+"""foldmill: from an origami design to a sheet that a cutting plotter scores on both faces.
+
+This is the face for plugin authors and notebooks. Millimetres and degrees throughout.
+"""
+
+from foldmill.design import Angle, Coordinate, Count, Design, Fold, Length, Params, Symmetry
+from foldmill.errors import (
+    FoldmillError,
+    ImpossibleGeometry,
+    InvalidInput,
+    InvalidParameters,
+    InvalidPattern,
+    PluginFault,
+    UnknownName,
+    UnreadableFile,
+)
+from foldmill.folded import FoldedForm
+from foldmill.hooks import hookimpl
+from foldmill.pattern import Assignment, CreasePattern
+from foldmill.registry import installed
+
+__all__ = [
+    "Angle",
+    "Assignment",
+    "Coordinate",
+    "Count",
+    "CreasePattern",
+    "Design",
+    "Fold",
+    "FoldedForm",
+    "FoldmillError",
+    "ImpossibleGeometry",
+    "InvalidInput",
+    "InvalidParameters",
+    "InvalidPattern",
+    "Length",
+    "Params",
+    "PluginFault",
+    "Symmetry",
+    "UnknownName",
+    "UnreadableFile",
+    "hookimpl",
+    "installed",
+]

@@ -1,0 +1,197 @@
+"""Solve one half wedge: a strip of triangles (i-2, i-1, i) between two planes through the axis.
+
+One formula serves every axisymmetric family. With d, u, c, h measured in the flat pattern,
+
+    s = |r_{i-1}| sin Θ
+    q = (r_{i-1} cos Θ − r_{i-2},  z_{i-1} − z_{i-2}),   D = |q|
+    P_i = P_{i-2} + d (c·q + b·sqrt(h² − s²)·q⊥) / D²,   q⊥ = (−q_z, q_r),   b = ±1
+
+It is the intersection of two circles in the plane of P_i (thesis 3.2.2), with h² − s² = D² − c².
+Two places exist where s < h, one where s = h; where D = 0 the circles are one (thesis 3.2.3) and
+the direction γ of P_{i-2}P_i is free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill.axisymmetric.points import FreePoint, LinePoint
+from foldmill.errors import ImpossibleGeometry, InvalidParameters
+from foldmill.tolerances import COINCIDENT_MM, ON_LINE, SNAP_EPSILONS
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Strip:
+    """A solved half wedge."""
+
+    order: int
+    """N."""
+    flat: Floats
+    """(T+1, 2) p_0 … p_T, mm."""
+    meridian: Floats
+    """(T+1, 2) P_0 … P_T as (r, z) in their planes, mm; r is signed."""
+    off_line: tuple[int, ...]
+    """Points strictly inside the wedge: each leaves a blank beside it."""
+
+    @property
+    def theta(self) -> float:
+        """Θ = π/N, rad."""
+        return float(np.pi / self.order)
+
+    @property
+    def spatial(self) -> Floats:
+        """(T+1, 3) the points in space: odd ones at azimuth 0, even ones at Θ."""
+        azimuth = np.where(np.arange(len(self.meridian)) % 2 == 0, self.theta, 0.0)
+        r, z = self.meridian.T
+        return np.column_stack([r * np.cos(azimuth), r * np.sin(azimuth), z])
+
+    @property
+    def one_sided(self) -> bool:
+        """True where no point crosses the axis to the other side."""
+        r = self.meridian[1:, 0]
+        return bool((r >= 0).all() or (r <= 0).all())
+
+
+def solve(order: int, phi: float, points: Mapping[int, LinePoint | FreePoint]) -> Strip:
+    """Solve the strip from its centre outwards.
+
+    order : N ≥ 3; phi : deg in [0, 180]; points : p_1 … p_T by number.
+    Raises InvalidParameters for contradicting points, ImpossibleGeometry where a P_i has no place
+    or lies beyond its symmetry line; both name i and by how much.
+    """
+    theta, count = np.pi / order, len(points) + 1
+    flat, meridian = np.zeros((count, 2)), np.zeros((count, 2))
+    first = points[1]
+    if not isinstance(first, LinePoint):
+        raise InvalidParameters("Point 1 lies on its line; it is moved by a and φ, not by r and z.")
+    flat[1] = (first.a, 0.0)
+    tilt = np.radians(phi)
+    meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
+    off_line = []
+    for i in range(2, count):
+        point = points[i]
+        if isinstance(point, LinePoint):
+            flat[i] = _on_line(i, point, flat, theta)
+            meridian[i] = _place(i, point, flat, meridian, theta)
+        else:
+            meridian[i] = (point.r, point.z)
+            flat[i] = _unfold(i, flat, meridian, theta)
+            if _is_off_line(i, flat, theta):
+                off_line.append(i)
+    return Strip(order, flat, meridian, tuple(off_line))
+
+
+def _sine(degrees: float) -> float:
+    return 0.0 if degrees in {0, 180} else float(np.sin(np.radians(degrees)))
+
+
+def _direction(i: int, theta: float) -> Floats:
+    return np.array([np.cos(theta), np.sin(theta)]) if i % 2 == 0 else np.array([1.0, 0.0])
+
+
+def _on_line(i: int, point: LinePoint, flat: Floats, theta: float) -> Floats:
+    along = _direction(i, theta)
+    inner = float(flat[i - 2] @ along)
+    if point.a <= inner:
+        raise InvalidParameters(
+            f"Point {i} must lie farther out than point {i - 2}: a = {point.a:g} mm, "
+            f"but point {i - 2} is at {inner:g} mm. Give point {i} more than {inner:g} mm."
+        )
+    spot: Floats = point.a * along
+    if _turn(flat[i - 2], flat[i - 1], spot) * (1 if i % 2 == 0 else -1) <= 0:
+        raise InvalidParameters(
+            f"Point {i} turns the triangle {i - 2}-{i - 1}-{i} over; give it a larger a."
+        )
+    return spot
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: float) -> Floats:
+    base, across = flat[i - 2], flat[i - 1]
+    d = float(np.hypot(*(flat[i] - base)))
+    c = float((across - base) @ (flat[i] - base)) / d
+    h = abs(_turn(base, flat[i], across)) / d
+    size = float(np.abs(flat).max())
+    (r2, z2), (r1, z1) = meridian[i - 2], meridian[i - 1]
+    s = abs(r1) * np.sin(theta)
+    q = np.array([r1 * np.cos(theta) - r2, z1 - z2])
+    D = float(np.hypot(*q))
+    if SNAP_EPSILONS * np.finfo(float).eps * size >= D:
+        return _place_freely(i, point, meridian[i - 2], d)
+    half_chord = _half_chord(i, c, h, s, D, size)
+    normal = np.array([-q[1], q[0]])
+    spot: Floats = meridian[i - 2] + d * (c * q + point.branch * half_chord * normal) / D**2
+    return spot
+
+
+def _place_freely(i: int, point: LinePoint, base: Floats, d: float) -> Floats:
+    if point.gamma is None:
+        raise InvalidParameters(
+            f"Point {i} can turn freely about point {i - 2} here (their circles are one): "
+            f"give it a direction, points.{i}.gamma, in degrees."
+        )
+    angle = np.radians(point.gamma)
+    spot: Floats = base + d * np.array([np.cos(angle), np.sin(angle)])
+    return spot
+
+
+def _half_chord(i: int, c: float, h: float, s: float, D: float, size: float) -> float:
+    squared = (h - s) * (h + s) if h <= abs(c) else (D - abs(c)) * (D + abs(c))
+    # A difference of squares is only as good as the smaller of its parts.
+    if abs(squared) <= SNAP_EPSILONS * np.finfo(float).eps * size * max(min(abs(c), h), 0.0):
+        return 0.0
+    if squared < 0:
+        raise ImpossibleGeometry(
+            f"Point {i} has no place: point {i - 1} is {s:.6g} mm from its plane, and only "
+            f"{h:.6g} mm of paper reach there ({s - h:.3g} mm too few). Bring point {i - 1} nearer "
+            f"to the axis, or move it outwards in the pattern."
+        )
+    return float(np.sqrt(squared))
+
+
+def _unfold(i: int, flat: Floats, meridian: Floats, theta: float) -> Floats:
+    """Find p_i by two circles, on the side that keeps its triangle the right way up."""
+    r, z = meridian.T
+    outer = float(np.hypot(r[i] - r[i - 2], z[i] - z[i - 2]))
+    straight = r[i] ** 2 + r[i - 1] ** 2 - 2 * r[i] * r[i - 1] * np.cos(theta)
+    across = float(np.sqrt(max(straight + (z[i] - z[i - 1]) ** 2, 0.0)))
+    step = flat[i - 1] - flat[i - 2]
+    base = float(np.hypot(*step))
+    if outer < COINCIDENT_MM or across < COINCIDENT_MM:
+        near = i - 2 if outer < COINCIDENT_MM else i - 1
+        raise InvalidParameters(f"Point {i} lies on point {near}; move one of them.")
+    x = (base**2 + outer**2 - across**2) / (2 * base)
+    y_squared = (outer - x) * (outer + x)
+    if y_squared <= 0:
+        raise ImpossibleGeometry(
+            f"Point {i} is in one line with points {i - 2} and {i - 1}: its triangle has no area."
+        )
+    along = step / base
+    left = np.array([-along[1], along[0]]) * (1 if i % 2 == 0 else -1)
+    spot: Floats = flat[i - 2] + x * along + np.sqrt(y_squared) * left
+    return spot
+
+
+def _is_off_line(i: int, flat: Floats, theta: float) -> bool:
+    """Tell whether p_i is strictly inside; snap it where it is on its line; refuse it beyond."""
+    along = _direction(i, theta)
+    inward = np.array([along[1], -along[0]]) * (1 if i % 2 == 0 else -1)
+    inside, size = float(flat[i] @ inward), float(np.abs(flat).max())
+    if abs(inside) <= ON_LINE * size:
+        flat[i] = float(flat[i] @ along) * along
+        return False
+    if inside < 0:
+        raise ImpossibleGeometry(
+            f"Point {i} crosses its symmetry line by {-inside:.4g} mm in the pattern: there is no "
+            f"paper for it (the angles about point {i - 2} exceed 360°). Move it back by r or z."
+        )
+    return True

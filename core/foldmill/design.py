@@ -1,0 +1,124 @@
+"""A design: a parameter model and a pure function from parameters to a fold.
+
+Parameters are declared once, with unit, bounds and an attribute docstring; options, forms, schema,
+validation and documentation follow from that one place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Annotated, Any, Generic, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from foldmill.errors import InvalidParameters, InvalidPattern, UnknownName
+from foldmill.folded import FoldedForm
+from foldmill.pattern import CreasePattern, Indices
+
+Length = Annotated[float, Field(gt=0, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
+"""A length in mm, positive and finite."""
+Coordinate = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
+"""A signed position in mm, finite."""
+Angle = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "deg"})]
+"""An angle in degrees, finite."""
+Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
+"""A whole number from 1 to 1000."""
+
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+class Params(BaseModel):
+    """Base of all parameter models: frozen, closed, documented by attribute docstrings."""
+
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, use_attribute_docstrings=True, validate_default=True
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Symmetry:
+    """The rotational symmetry of a fold, as the intersection check may use it."""
+
+    order: int
+    """N: the form maps to itself when turned by 360/N degrees."""
+    wedge: Indices
+    """(k,) faces of one half wedge; mirrored and turned they make the whole form."""
+    one_sided: bool
+    """True where every signed radius has one sign, so that no facet crosses the axis. Only then do
+    the half wedge's own facets decide whether the whole form is free of penetration."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """A pattern, its folded form where one is known, and what is known beside them."""
+
+    pattern: CreasePattern
+    folded: FoldedForm | None = None
+    symmetry: Symmetry | None = None
+    meta: Mapping[str, Any] = field(default_factory=dict)
+    """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys."""
+
+    def __post_init__(self) -> None:
+        if self.folded is not None and len(self.folded.vertices) != len(self.pattern.vertices):
+            raise InvalidPattern(
+                f"The pattern has {len(self.pattern.vertices)} vertices, "
+                f"its folded form {len(self.folded.vertices)}."
+            )
+
+
+P = TypeVar("P", bound=Params)
+
+
+@dataclass(frozen=True)
+class Design(Generic[P]):
+    """What a plugin offers. ``presets`` feed gallery, command line and golden tests alike."""
+
+    slug: str
+    title: str
+    params: type[P]
+    generate: Callable[[P], Fold]
+    presets: Mapping[str, P] = field(default_factory=dict)
+    references: tuple[str, ...] = ()
+    version: str = "1"
+
+    def schema(self) -> dict[str, Any]:
+        """Return the JSON schema of the parameters, ``x-unit`` beside every physical quantity."""
+        return self.params.model_json_schema()
+
+    def preset(self, name: str) -> P:
+        """Return the parameters of a preset; raises UnknownName with the names there are."""
+        if name not in self.presets:
+            raise UnknownName.of(f"preset of {self.slug}", name, self.presets)
+        return self.presets[name]
+
+    def validate(self, values: Mapping[str, Any]) -> P:
+        """Turn raw values (a form, a file, a command line) into parameters.
+
+        Raises InvalidParameters with one sentence for each value that is out of bounds.
+        """
+        try:
+            return self.params.model_validate(values)
+        except ValidationError as error:
+            raise InvalidParameters(explain(error)) from None
+
+    def run(self, values: Mapping[str, Any] | P = _NOTHING) -> Fold:
+        """Validate, generate, and record in ``meta`` which design and parameters it was."""
+        params = values if isinstance(values, self.params) else self.validate(dict(values))
+        fold = self.generate(params)
+        stated = params.model_dump(mode="json")
+        record = {"slug": self.slug, "version": self.version, "params": stated}
+        meta = {"title": self.title, **fold.meta, "design": record}
+        return Fold(fold.pattern, fold.folded, fold.symmetry, meta)
+
+
+def explain(error: ValidationError) -> str:
+    """Return pydantic's findings as sentences that name each parameter by its dotted name."""
+    sentences = []
+    for fault in error.errors():
+        place = ".".join(str(part) for part in fault["loc"] if part not in {"line", "free"})
+        said = fault["msg"].removeprefix("Value error, ").rstrip(".")
+        given = "" if not place or fault["type"] == "missing" else f" (got {fault['input']!r})"
+        sentences.append(f"{place}: {said}{given}." if place else f"{said}.")
+    return " ".join(sentences)

@@ -1,0 +1,57 @@
+"""The exceptions of foldmill. Each also inherits the builtin it means, so both habits catch it.
+
+::
+
+    FoldmillError
+    ├── InvalidInput (ValueError)        a broken call or broken input
+    │   ├── InvalidPattern               a crease pattern that is no graph of creases
+    │   ├── InvalidParameters            parameters outside their bounds or contradicting each other
+    │   ├── ImpossibleGeometry           parameters that are legal, but fold to nothing
+    │   └── UnreadableFile               a file that is not what its name says
+    ├── UnknownName (LookupError)        no such family, preset, material, machine or format
+    └── PluginFault (TypeError)          a plugin that breaks its contract
+
+Their text is for people: what, where, by how much, what to do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class FoldmillError(Exception):
+    """Root of every exception that foldmill raises on purpose."""
+
+
+class InvalidInput(FoldmillError, ValueError):
+    """A value that cannot be worked with."""
+
+
+class InvalidPattern(InvalidInput):
+    """Vertices, edges and faces that do not make a crease pattern."""
+
+
+class InvalidParameters(InvalidInput):
+    """Parameters outside their bounds, or contradicting each other."""
+
+
+class ImpossibleGeometry(InvalidInput):
+    """Legal parameters for which no folded form exists."""
+
+
+class UnreadableFile(InvalidInput):
+    """A file that cannot be read as what it claims to be."""
+
+
+class UnknownName(FoldmillError, LookupError):
+    """A name that nobody offers."""
+
+    @classmethod
+    def of(cls, kind: str, name: str, known: Iterable[object]) -> UnknownName:
+        """Say which names there are, so that the next try succeeds."""
+        names = ", ".join(sorted(str(each) for each in known)) or "none"
+        return cls(f"There is no {kind} {name!r}. There are: {names}.")
+
+
+class PluginFault(FoldmillError, TypeError):
+    """A plugin that does not keep its contract."""

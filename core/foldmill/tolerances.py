@@ -1,0 +1,37 @@
+"""Every tolerance of foldmill: its unit and its reason. Nowhere else stands a small number."""
+
+from __future__ import annotations
+
+from typing import Final
+
+FLAT_DEG: Final = 1e-4
+"""deg. A crease that folds by no more is flat. Solved forms reach 1e-12; a plotter cannot tell
+1e-2; so the value only separates noise from intent."""
+
+CLOSED_DEG: Final = 1e-4
+"""deg. Nearer to ±180 than this the sign of a fold angle is noise, and the family states it."""
+
+ANGLE_SUM_RAD: Final = 1e-11
+"""rad. Largest deviation of an interior vertex's angle sum from 2π (solved patterns: 1e-14)."""
+
+ISOMETRY: Final = 1e-12
+"""Largest difference between an edge's flat and folded length, as a share of the sheet's size. Per
+edge it would punish slivers: they reach 6e-11 of themselves at 3e-14 of the sheet."""
+
+PENETRATION: Final = 1e-7
+"""Share of the form's size that two facets must pass through each other to penetrate. Verdicts on
+1.2 million forms were the same from 1e-7 to 1e-13."""
+
+COINCIDENT_MM: Final = 1e-6
+"""mm. Two points nearer than this are one. A thousandth of the finest plotter step is 2.5e-5."""
+
+ON_LINE: Final = 1e-9
+"""Share of the sheet's size within which a point lies on its symmetry line: then there is no blank
+to tuck. Far above rounding (1e-15), far below any tuck a person could fold."""
+
+SNAP_EPSILONS: Final = 64
+"""Machine epsilons (times size) below which the squared half-chord of two circles is zero. Without
+the snap φ = 90 drifts by 3e-5."""
+
+DISH: Final = 1e-9
+"""Share of the cubed size below which a form encloses no volume: a flat sheet has no outside."""

@@ -1,0 +1,1 @@
+"""From a fold to a finished sheet: plan, write, verify, drive."""

@@ -1,0 +1,29 @@
+"""What foldmill itself offers through its own hooks: hook specifications, presets and formats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import ModuleType
+
+from foldmill import hookimpl
+from foldmill_fabricate import hooks, presets
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Material
+
+
+@hookimpl
+def foldmill_hookspecs() -> list[ModuleType]:
+    """Offer the hooks of formats, machines and materials."""
+    return [hooks]
+
+
+@hookimpl
+def foldmill_materials() -> Iterable[Material]:
+    """Offer the materials that lie beside the code."""
+    return presets.shipped(Material, "foldmill_fabricate.materials")
+
+
+@hookimpl
+def foldmill_machines() -> Iterable[Machine]:
+    """Offer the machines that lie beside the code."""
+    return presets.shipped(Machine, "foldmill_fabricate.machines")

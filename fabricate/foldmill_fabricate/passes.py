@@ -1,0 +1,207 @@
+"""The plan as a value: passes of a sheet, their set-ups, operations and strokes. No behaviour.
+
+All positions are sheet coordinates: mm, x right, y up, origin in the blank's lower left corner,
+the viewer looking at the FRONT face. They are never mirrored here; a writer mirrors the reverse.
+
+Terminology: a *pass* is one face of the sheet; a *set-up* is what is done without an operator's
+hand on the machine; an *operation* is all lines of one role in it; a *stroke* is one motion with the tool
+down; a *repeat* is the knife going over a stroke again without lifting.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from foldmill.finding import Finding
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Material
+
+XY = tuple[float, float]
+
+
+class Face(StrEnum):
+    """A face of the sheet; the front is the outside of the folded form."""
+
+    FRONT = "front"
+    REVERSE = "reverse"
+
+
+class Role(StrEnum):
+    """What a line is for. Order of work on one face is the order given here."""
+
+    HOLE = "hole"
+    """registration hole, cut through"""
+    WITNESS = "witness"
+    """mark that tells a flipped sheet from one that was not flipped; scored"""
+    SCORE = "score"
+    CUT_INNER = "cut-inner"
+    CUT_OUTER = "cut-outer"
+
+
+class Gate(StrEnum):
+    """What the operator does before a set-up starts."""
+
+    LOAD = "load"
+    TOOL = "tool"
+    FLIP = "flip"
+
+
+class _Value(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Stroke(_Value):
+    """One motion with the tool down, once along it. A closed stroke ends where it begins.
+
+    With r repeats an open stroke is followed there and back, r times in all; a closed one is gone
+    round r times and then on by the operation's overcut. The tool is not lifted in between.
+    """
+
+    points: tuple[XY, ...] = Field(min_length=2)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it returns to its start."""
+        return len(self.points) > 3 and self.points[0] == self.points[-1]
+
+
+class Operation(_Value):
+    """All strokes of one role in a set-up, in order of work."""
+
+    role: Role
+    repeats: int
+    overcut: float = 0.0
+    """mm; for closed strokes."""
+    strokes: tuple[Stroke, ...]
+
+
+class SetUp(_Value):
+    """What is done with one tool, exposure, force and speed."""
+
+    number: int
+    """1, 2, 3 … over the whole job."""
+    name: str
+    """Such as "front-holes"; with the number it names the program."""
+    process: Literal["score", "cut"]
+    tool: int
+    """Number after SP; 0 where SP means nothing."""
+    exposure: float
+    """mm"""
+    force: float
+    """gf"""
+    speed: float
+    """mm/s"""
+    gates: tuple[Gate, ...]
+    """What the operator does before it, in this order; empty where the machine changes tools."""
+    operations: tuple[Operation, ...]
+
+
+class Pass(_Value):
+    """Everything done to one face."""
+
+    face: Face
+    setups: tuple[SetUp, ...]
+
+
+class Placement(_Value):
+    """Pattern to sheet: turn by ``angle`` degrees about the pattern's origin, then shift."""
+
+    angle: float
+    dx: float
+    dy: float
+
+
+class Flip(_Value):
+    """How the sheet is turned over, about an axis of the blank."""
+
+    kind: Literal["left-right", "end-over-end"]
+    axis: float
+    """X0 for left-right (x' = 2·X0 − x), Y0 for end-over-end (y' = 2·Y0 − y), mm."""
+
+
+class Sheet(_Value):
+    """The blank, and where it lies on its carrier."""
+
+    width: float
+    height: float
+    carrier_width: float
+    carrier_height: float
+    dx: float
+    """Carrier coordinates of the blank's lower left corner, mm."""
+    dy: float
+
+
+class Hole(_Value):
+    """A registration hole."""
+
+    x: float
+    y: float
+    diameter: float
+
+
+class Tie(_Value):
+    """A bridge left in the outline; its middle and its width along the cut."""
+
+    x: float
+    y: float
+    width: float
+
+
+class Fit(_Value):
+    """How a flipped sheet really lies: seen = turn(expected) by ``angle`` degrees + (dx, dy).
+
+    Both in carrier coordinates, as the machine sees the reverse; turned about the carrier's origin.
+    """
+
+    angle: float
+    dx: float
+    dy: float
+
+
+class ProgramFile(_Value):
+    """A program on disk: which face and set-ups it holds, and its SHA-256."""
+
+    name: str
+    face: Face
+    setups: tuple[int, ...]
+    sha256: str
+
+
+class Figures(_Value):
+    """How much work the plan is."""
+
+    strokes: int
+    lifts: int
+    drawn: float
+    """mm with the tool down, repeats included"""
+    travel: float
+    """mm with the tool up"""
+    travel_bound: float
+    """mm that no order of these strokes can go below"""
+    seconds: float
+    """by the machine's own speeds and accelerations"""
+
+
+class Plan(_Value):
+    """Everything that is done to one sheet, and what it was made from."""
+
+    version: Literal[1] = 1
+    title: str
+    pattern_sha256: str
+    """of the bytes of pattern.fold"""
+    material: Material
+    machine: Machine
+    sheet: Sheet
+    placement: Placement
+    flip: Flip
+    unassigned: Literal["front", "reverse", "skip"] | None = None
+    """On which face U creases are scored; None where there are none."""
+    holes: tuple[Hole, ...]
+    ties: tuple[Tie, ...]
+    passes: tuple[Pass, ...]
+    figures: Figures
+    findings: tuple[Finding, ...] = ()
+    programs: tuple[ProgramFile, ...] = ()

@@ -1,0 +1,49 @@
+"""The sheet on its carrier: placing a pattern, turning the sheet over, and how it really lies."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
+
+Floats = NDArray[np.float64]
+
+
+def turned(points: ArrayLike, degrees: float) -> Floats:
+    """Turn points (n, 2) about the origin, counter-clockwise."""
+    angle = np.radians(degrees)
+    cos, sin = np.cos(angle), np.sin(angle)
+    xy = np.asarray(points, float)
+    return np.column_stack([cos * xy[:, 0] - sin * xy[:, 1], sin * xy[:, 0] + cos * xy[:, 1]])
+
+
+def placed(points: ArrayLike, placement: Placement) -> Floats:
+    """Bring pattern coordinates (n, 2) onto the sheet, mm."""
+    moved: Floats = turned(points, placement.angle) + (placement.dx, placement.dy)
+    return moved
+
+
+def flipped(points: ArrayLike, flip: Flip) -> Floats:
+    """Turn the sheet over: its reverse, as one looks at it then. Its own inverse."""
+    xy = np.array(points, float)
+    k = 0 if flip.kind == "left-right" else 1
+    xy[:, k] = 2 * flip.axis - xy[:, k]
+    return xy
+
+
+def on_carrier(points: ArrayLike, sheet: Sheet) -> Floats:
+    """Shift sheet coordinates (n, 2) by where the blank lies on its carrier, mm."""
+    moved: Floats = np.asarray(points, float) + (sheet.dx, sheet.dy)
+    return moved
+
+
+def seen_by_machine(plan: Plan, face: Face, points: ArrayLike, fit: Fit | None = None) -> Floats:
+    """Return where the machine finds sheet points (n, 2) of a pass: carrier coordinates, mm."""
+    seen = np.asarray(points, float)
+    if face is Face.REVERSE:
+        seen = flipped(seen, plan.flip)
+    seen = on_carrier(seen, plan.sheet)
+    if fit is not None and face is Face.REVERSE:
+        seen = turned(seen, fit.angle) + (fit.dx, fit.dy)
+    return seen

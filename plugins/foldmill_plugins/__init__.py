@@ -1,0 +1,1 @@
+"""The built-in families. Each knows ``foldmill`` only, never another family."""

@@ -1,0 +1,42 @@
+"""Shared test options: golden files, and skips that CI forbids."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--update-goldens", action="store_true", help="rewrite golden files")
+
+
+@pytest.fixture
+def golden(request: pytest.FixtureRequest) -> Golden:
+    return Golden(bool(request.config.getoption("--update-goldens")))
+
+
+class Golden:
+    """Compare bytes with a file beside the tests; one flag rewrites it."""
+
+    folder = Path(__file__).parent / "goldens"
+
+    def __init__(self, update: bool) -> None:
+        self.update = update
+
+    def check(self, name: str, content: bytes) -> None:
+        path = self.folder / name
+        if self.update:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        assert path.exists(), f"no golden {name}: run `make goldens` and look at it"
+        assert content == path.read_bytes(), f"{name} differs from its golden"
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    skipped = reporter.stats.get("skipped", []) if reporter else []
+    if skipped and os.environ.get("FOLDMILL_FORBID_SKIPS"):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
