@@ -4,8 +4,8 @@ All positions are sheet coordinates: mm, x right, y up, origin in the blank's lo
 the viewer looking at the FRONT face. They are never mirrored here; a writer mirrors the reverse.
 
 Terminology: a *pass* is one face of the sheet; a *set-up* is what is done without an operator's
-hand on the machine; an *operation* is all lines of one role in it; a *stroke* is one motion with the tool
-down; a *repeat* is the knife going over a stroke again without lifting.
+hand on the machine; an *operation* is all lines of one role in it; a *stroke* is one motion with
+the tool down; a *repeat* is the knife going over a stroke again without lifting.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ def turned(points: ArrayLike, degrees: float) -> Floats:
 
 def placed(points: ArrayLike, placement: Placement) -> Floats:
     """Bring pattern coordinates (n, 2) onto the sheet, mm."""
-    moved: Floats = turned(points, placement.angle) + (placement.dx, placement.dy)
+    moved: Floats = turned(points, placement.angle) + np.array([placement.dx, placement.dy])
     return moved
 
 
@@ -34,7 +34,7 @@ def flipped(points: ArrayLike, flip: Flip) -> Floats:
 
 def on_carrier(points: ArrayLike, sheet: Sheet) -> Floats:
     """Shift sheet coordinates (n, 2) by where the blank lies on its carrier, mm."""
-    moved: Floats = np.asarray(points, float) + (sheet.dx, sheet.dy)
+    moved: Floats = np.asarray(points, float) + np.array([sheet.dx, sheet.dy])
     return moved
 
 
@@ -45,5 +45,5 @@ def seen_by_machine(plan: Plan, face: Face, points: ArrayLike, fit: Fit | None =
         seen = flipped(seen, plan.flip)
     seen = on_carrier(seen, plan.sheet)
     if fit is not None and face is Face.REVERSE:
-        seen = turned(seen, fit.angle) + (fit.dx, fit.dy)
+        seen = turned(seen, fit.angle) + np.array([fit.dx, fit.dy])
     return seen

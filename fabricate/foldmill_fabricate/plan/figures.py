@@ -1,0 +1,65 @@
+"""How much work a plan is: strokes, travel and its lower bound, time."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.passes import Face, Figures, Flip, Pass, SetUp, Sheet
+from foldmill_fabricate.sheet import flipped, on_carrier
+from foldmill_fabricate.toolpath import motion, order
+from foldmill_fabricate.toolpath.traversal import traversal
+
+Floats = NDArray[np.float64]
+
+
+def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip) -> Figures:
+    """Return the figures of the whole job, the tool starting in the carrier's corner."""
+    at = np.zeros(2)
+    drawn = travel = bound = seconds = 0.0
+    strokes = 0
+    for one_pass in passes:
+        for setup in one_pass.setups:
+            paths = _paths(one_pass.face, setup, sheet, flip)
+            strokes += len(paths)
+            drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+            travel += order.travel(paths, at)
+            bound += order.travel_bound(_lines(one_pass.face, setup, sheet, flip), at)
+            seconds += _seconds(paths, at, setup, machine)
+            at = paths[-1][-1] if paths else at
+    return Figures(
+        strokes=strokes,
+        lifts=strokes,
+        drawn=round(drawn, 3),
+        travel=round(travel, 3),
+        travel_bound=round(bound, 3),
+        seconds=round(seconds, 1),
+    )
+
+
+def _lines(face: Face, setup: SetUp, sheet: Sheet, flip: Flip) -> list[Floats]:
+    """Return the strokes as the machine sees them, each once along."""
+    strokes = [stroke for operation in setup.operations for stroke in operation.strokes]
+    return [_seen(np.array(stroke.points), face, sheet, flip) for stroke in strokes]
+
+
+def _paths(face: Face, setup: SetUp, sheet: Sheet, flip: Flip) -> list[Floats]:
+    """Return the ways of the tool as the machine sees them, repeats and overcut included."""
+    paths = [traversal(s, operation) for operation in setup.operations for s in operation.strokes]
+    return [_seen(path, face, sheet, flip) for path in paths]
+
+
+def _seen(points: Floats, face: Face, sheet: Sheet, flip: Flip) -> Floats:
+    return on_carrier(flipped(points, flip) if face is Face.REVERSE else points, sheet)
+
+
+def _seconds(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) -> float:
+    model = machine.motion
+    total = model.tool_time
+    for path in paths:
+        hop = float(np.hypot(*(path[0] - at)))
+        total += float(motion.move_seconds([hop], model.travel_speed, model.acceleration)[0])
+        total += 2 * model.lift_time + motion.path_seconds(path, setup.speed, model)
+        at = path[-1]
+    return total

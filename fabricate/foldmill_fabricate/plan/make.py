@@ -1,0 +1,112 @@
+"""Put the plan together; every step is a function of what came before it."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import Fold
+from foldmill.exchange import fold as fold_file
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Material
+from foldmill_fabricate.passes import Face, Flip, Plan, Sheet
+from foldmill_fabricate.plan import outline, registration, rules, scores, setups, sides
+from foldmill_fabricate.plan.figures import measure
+from foldmill_fabricate.plan.placement import lay_blank, place
+from foldmill_fabricate.plan.registration import Registration
+from foldmill_fabricate.plan.setups import Lines
+from foldmill_fabricate.sheet import placed
+
+Floats = NDArray[np.float64]
+FlipKind = Literal["left-right", "end-over-end"]
+
+
+def make(
+    fold: Fold,
+    material: Material,
+    machine: Machine,
+    *,
+    blank: tuple[float, float] | None = None,
+    carrier: tuple[float, float] | None = None,
+    flip: FlipKind = "left-right",
+    unassigned: sides.Unassigned | None = None,
+) -> Plan:
+    """Plan the sheet of a fold.
+
+    blank : (width, height) mm, by default the material's stock; carrier : (width, height) mm, by
+    default the machine's mat; flip : how the operator turns the sheet; unassigned : where U creases
+    are scored. The same input gives the same plan. Raises CannotPlan or DoesNotFit with a sentence.
+    """
+    pattern = fold.pattern
+    if not len(pattern.vertices):
+        raise CannotPlan("The pattern is empty; there is nothing to cut.")
+    sheet = lay_blank(
+        machine,
+        blank or (material.stock_width, material.stock_height),
+        carrier or (machine.bed.carrier_width, machine.bed.carrier_height),
+    )
+    placement = place(pattern.vertices, sheet, material.part_clearance)
+    spots = placed(pattern.vertices, placement)
+    turn = _flip(flip, sheet)
+    by_face = sides.scored_edges(pattern, material.score, unassigned)
+    marks = _register(fold, spots, sheet, turn, material, by_face)
+    cuts, ties = outline.outer_cut(pattern, spots, material.cut)
+    all_scored = np.concatenate(list(by_face.values()))
+    stops = scores.held_back(pattern, all_scored)
+    rules.refuse_short_creases(pattern, all_scored, stops, material.score.setback)
+
+    def lines(face: Face, start: Floats) -> Lines:
+        return Lines(
+            scores=scores.strokes(
+                pattern,
+                spots,
+                by_face[face],
+                stops,
+                material.score.setback,
+                material.score.repeats,
+                start,
+            ),
+            inner=outline.inner_cuts(pattern, spots, material.cut.repeats, start),
+            outer=cuts,
+        )
+
+    passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
+    draft = Plan(
+        title=str(fold.meta.get("title", "")),
+        pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),
+        material=material,
+        machine=machine,
+        sheet=sheet,
+        placement=placement,
+        flip=turn,
+        unassigned=unassigned,
+        holes=marks.holes,
+        ties=ties,
+        passes=passes,
+        figures=measure(passes, machine, sheet, turn),
+    )
+    findings = marks.findings + rules.judge(pattern, spots, by_face, stops, draft)
+    return draft.model_copy(update={"findings": findings})
+
+
+def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
+    return Flip(kind=kind, axis=(sheet.width if kind == "left-right" else sheet.height) / 2)
+
+
+def _register(
+    fold: Fold,
+    spots: Floats,
+    sheet: Sheet,
+    turn: Flip,
+    material: Material,
+    by_face: dict[Face, NDArray[np.intp]],
+) -> Registration:
+    """A sheet that is scored on one face only is never turned, and needs no register."""
+    if not all(len(edges) for edges in by_face.values()):
+        return Registration()
+    part = spots[fold.pattern.outline()[0]]
+    return registration.register(part, sheet, turn, material.holes)

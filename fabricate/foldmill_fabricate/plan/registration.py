@@ -1,0 +1,156 @@
+"""How the flip keeps register: four holes in the waste, and a mark that shows the sheet was turned.
+
+Two pairs of holes are symmetric about the flip axis, so that a turned sheet shows holes where holes
+were. Their spacings differ and they are not symmetric about the other centre line, so that a sheet
+turned the wrong way shows it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.materials import Holes
+from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
+from foldmill_fabricate.sheet import flipped
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+GRID = 1.0
+"""mm between the places tried."""
+DIFFERENCE = 10.0
+"""mm by which the two pairs differ, so that a wrong turn is plain to the eye."""
+WITNESS = np.array([[[0, 0], [0, 12]], [[0, 12], [8, 12]], [[0, 7], [6, 7]]], float)
+"""(3, 2, 2) the strokes of a letter F, mm: it is not its own mirror image."""
+WITNESS_CLEARANCE = 3.0
+"""mm around the witness mark to the part, the edge and the holes."""
+
+
+@dataclass(frozen=True)
+class Registration:
+    """Holes and witness mark, in sheet coordinates; empty where nothing fits, with the reason."""
+
+    holes: tuple[Hole, ...] = ()
+    witness: tuple[Stroke, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def register(part: Floats, sheet: Sheet, flip: Flip, holes: Holes) -> Registration:
+    """Find holes and witness mark in the waste around a part, its outline (n, 2) on the sheet."""
+    radius = holes.diameter / 2
+    room = (holes.edge_clearance + radius, holes.part_clearance + radius)
+    spots = _grid(sheet)
+    spots = spots[_is_free(spots, part, sheet, *room)]
+    spots = spots[_is_free(flipped(spots, flip), part, sheet, *room)]
+    pairs = _two_pairs(spots, sheet, flip)
+    if pairs is None:
+        return Registration(findings=(_no_room(part, sheet, holes),))
+    found = tuple(
+        Hole(x=float(x), y=float(y), diameter=holes.diameter)
+        for spot in pairs
+        for x, y in np.vstack([spot, flipped([spot], flip)])
+    )
+    witness, findings = _witness(part, sheet, found)
+    return Registration(found, witness, findings)
+
+
+def _grid(sheet: Sheet) -> Floats:
+    x = np.arange(GRID / 2, sheet.width, GRID)
+    y = np.arange(GRID / 2, sheet.height, GRID)
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+
+def _is_free(spots: Floats, part: Floats, sheet: Sheet, edge: float, clearance: float) -> Flags:
+    """Tell which spots (n, 2) are that far from the blank's edge and from the part."""
+    import shapely
+
+    size = np.array([sheet.width, sheet.height])
+    inside = np.asarray(((spots >= edge) & (spots <= size - edge)).all(axis=1), bool)
+    taken = shapely.Polygon(part).buffer(clearance)
+    shapely.prepare(taken)
+    outside: Flags = ~shapely.contains_xy(taken, *spots.T)
+    return inside & outside
+
+
+def _two_pairs(spots: Floats, sheet: Sheet, flip: Flip) -> tuple[Floats, Floats] | None:
+    """Return one hole of each pair: far apart, and different enough.
+
+    spots : (n, 2) mm, free here and, turned over, free there.
+    """
+    k = 0 if flip.kind == "left-right" else 1
+    middle = (sheet.height if k == 0 else sheet.width) / 2
+    both = spots
+    reach, along = both[:, k] - flip.axis, both[:, 1 - k] - middle
+    both, reach, along = both[reach > 0], reach[reach > 0], along[reach > 0]
+    best: tuple[float, int, int] | None = None
+    for sign in (1.0, -1.0):
+        first = np.where(sign * along > 0, reach + sign * along, -np.inf)
+        if not np.isfinite(first).any():
+            continue
+        i = int(np.argmax(first))
+        differs = (np.abs(reach - reach[i]) >= DIFFERENCE) & (
+            np.abs(along + along[i]) >= DIFFERENCE
+        )
+        second = np.where((sign * along < 0) & differs, reach - sign * along, -np.inf)
+        j = int(np.argmax(second))
+        if np.isfinite(second[j]) and (best is None or first[i] + second[j] > best[0] + 1e-9):
+            best = (float(first[i] + second[j]), i, j)
+    return None if best is None else (both[best[1]], both[best[2]])
+
+
+def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
+    import shapely
+
+    blank = shapely.box(0, 0, sheet.width, sheet.height)
+    free = blank.difference(shapely.Polygon(part))
+    widest = shapely.maximum_inscribed_circle(free).length if not free.is_empty else 0.0
+    need = holes.diameter / 2 + max(holes.part_clearance, holes.edge_clearance)
+    short = f"{need - widest:.1f} mm short" if widest < need else "not in two different pairs"
+    return Finding(
+        "no-registration-holes",
+        Severity.WARNING,
+        "waste",
+        f"Four registration holes do not fit beside the part: the widest free circle has a radius "
+        f"of {widest:.1f} mm and a hole needs {need:.1f} mm ({short}).",
+        "Lay both passes against the same edge stop, or take a larger blank.",
+    )
+
+
+def _witness(
+    part: Floats, sheet: Sheet, holes: tuple[Hole, ...]
+) -> tuple[tuple[Stroke, ...], tuple[Finding, ...]]:
+    """Place the F near the upper left corner, where it is clear of everything."""
+    size = WITNESS.reshape(-1, 2).max(axis=0)
+    reach = float(np.hypot(*size)) / 2 + WITNESS_CLEARANCE
+    middles = _grid(sheet)
+    middles = middles[_is_free(middles, part, sheet, reach, reach)]
+    for hole in holes:
+        apart = np.hypot(*(middles - np.array([hole.x, hole.y])).T)
+        middles = middles[apart >= reach + hole.diameter / 2]
+    if not len(middles):
+        return (), (
+            Finding(
+                "no-witness-mark",
+                Severity.WARNING,
+                "waste",
+                "There is no room in the waste for the mark that shows the sheet was flipped.",
+                "Write an F on the front by hand before the first pass.",
+            ),
+        )
+    spot = middles[int(np.argmin(middles[:, 0] - middles[:, 1]))] - size / 2
+    return tuple(
+        Stroke(points=tuple((float(x), float(y)) for x, y in line + spot)) for line in WITNESS
+    ), ()
+
+
+def circle(hole: Hole, corner_tolerance: float = 0.02) -> Stroke:
+    """Return a hole's rim as a closed polygon that leaves the circle by no more than that, mm."""
+    radius = hole.diameter / 2
+    corners = max(12, int(np.ceil(np.pi / np.arccos(1 - corner_tolerance / radius))))
+    angles = 2 * np.pi * np.arange(corners) / corners
+    rim = [(float(hole.x + radius * np.cos(a)), float(hole.y + radius * np.sin(a))) for a in angles]
+    return Stroke(points=(*rim, rim[0]))

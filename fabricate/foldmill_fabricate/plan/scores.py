@@ -1,0 +1,89 @@
+"""Where scores begin and end: trails over the creases of one face, held back from the vertices."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import CreasePattern
+from foldmill_fabricate.passes import Stroke
+from foldmill_fabricate.toolpath import order, trails
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+STRAIGHT_DEG = 0.001
+"""deg. Two creases that bend by less at a vertex are one straight line to a knife."""
+
+
+def held_back(pattern: CreasePattern, scored: Indices) -> set[int]:
+    """Return the interior vertices where at least two scored creases meet that are not one line.
+
+    scored : edges scored on either face. There all scores stop short.
+    """
+    spokes: dict[int, list[float]] = {}
+    for a, b in pattern.edges[scored].tolist():
+        for tail, head in ((a, b), (b, a)):
+            step = pattern.vertices[head] - pattern.vertices[tail]
+            spokes.setdefault(tail, []).append(float(np.degrees(np.arctan2(step[1], step[0]))))
+    interior = set(pattern.interior_vertices.tolist())
+    return {v for v, angles in spokes.items() if v in interior and _meet(angles)}
+
+
+def _meet(angles: list[float]) -> bool:
+    if len(angles) == 1:
+        return False
+    bend = abs((angles[0] - angles[1]) % 360 - 180)
+    return len(angles) > 2 or bend > STRAIGHT_DEG
+
+
+def strokes(
+    pattern: CreasePattern,
+    spots: Floats,
+    edges: Indices,
+    stops: set[int],
+    setback: float,
+    repeats: int,
+    start: Floats,
+) -> tuple[Stroke, ...]:
+    """Return the score strokes of one face in order of work.
+
+    spots : (V, 2) the vertices on the sheet, mm; edges : those scored on this face;
+    stops : vertices that scores stop short of, by ``setback`` mm; start : (2,) where the tool is.
+    Creases are joined to trails as straight as they go, then divided where scores stop short. The
+    pieces are ordered, not the trails: an even number of repeats ends a stroke where it began, so
+    that the next piece of its trail is no nearer than others.
+    """
+    pieces = [
+        piece
+        for trail in trails.straightest(spots, pattern.edges[edges])
+        for piece in _divide(trail, spots, stops, setback)
+    ]
+    return order.sorted_strokes(pieces, repeats, start)
+
+
+def _divide(trail: list[int], spots: Floats, stops: set[int], setback: float) -> list[Stroke]:
+    """Cut a trail into straight strokes, held back where they must stop short."""
+    cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops or _bends(trail, k, spots)]
+    pieces = []
+    for low, high in pairwise([0, *cuts, len(trail) - 1]):
+        a, b = spots[trail[low]], spots[trail[high]]
+        one = _shortened(a, b, setback) if trail[low] in stops else a
+        two = _shortened(b, a, setback) if trail[high] in stops else b
+        ends = ((float(one[0]), float(one[1])), (float(two[0]), float(two[1])))
+        pieces.append(Stroke(points=ends))
+    return pieces
+
+
+def _bends(trail: list[int], k: int, spots: Floats) -> bool:
+    one, two = spots[trail[k]] - spots[trail[k - 1]], spots[trail[k + 1]] - spots[trail[k]]
+    bend = np.degrees(np.arctan2(one[0] * two[1] - one[1] * two[0], one @ two))
+    return bool(abs(bend) > STRAIGHT_DEG)
+
+
+def _shortened(end: Floats, towards: Floats, setback: float) -> Floats:
+    step = towards - end
+    moved: Floats = end + step * (setback / float(np.hypot(*step)))
+    return moved
