@@ -7,6 +7,8 @@ from types import ModuleType
 
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
+from foldmill_fabricate.formats import dxf, hpgl, svg
+from foldmill_fabricate.hooks import Format
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 
@@ -27,3 +29,13 @@ def foldmill_materials() -> Iterable[Material]:
 def foldmill_machines() -> Iterable[Machine]:
     """Offer the machines that lie beside the code."""
     return presets.shipped(Machine, "foldmill_fabricate.machines")
+
+
+@hookimpl
+def foldmill_formats() -> Iterable[Format]:
+    """Offer the drawings and programs of ``foldmill_fabricate.formats``."""
+    return [
+        Format("svg", "SVG drawing of each face and of both", svg.write),
+        Format("dxf", "DXF drawing of each face and of both", dxf.write),
+        Format("hpgl", "HP-GL programs of each set-up or face", hpgl.write, hpgl.layout),
+    ]

@@ -1,0 +1,102 @@
+"""SVG cutting drawings: mm, named Inkscape layers, style attributes, flat coordinates.
+
+Layer labels read ``ROLE Pen n Speed v Force f``: Inkscape's own HP-GL export then selects pen,
+speed and force by layer, and vpype numbers its layers by pen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from foldmill import Fold
+from foldmill_fabricate.formats import drawing as d
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.passes import Plan
+
+if TYPE_CHECKING:
+    import svgwrite
+
+STROKE = "fill:none;stroke:{};stroke-width:0.25"
+"""Style of a line: thin, so that senders take it as a path and not as an area."""
+DECIMALS = 4
+"""Of a mm: a 250th of a plotter step."""
+
+
+def write(plan: Plan, fold: Fold) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
+    """Return ``front.svg``, ``reverse.svg`` (as the machine sees it) and ``master.svg``."""
+    return {f"{view.name}.svg": _svg(plan, view) for view in d.drawings(plan)}
+
+
+def number(value: float) -> str:
+    """Return a coordinate without trailing zeros and without a negative zero."""
+    return f"{round(value, DECIMALS) + 0.0:.{DECIMALS}f}".rstrip("0").rstrip(".")
+
+
+def path(line: d.Floats, height: float) -> str:
+    """Return the path data of a line (n, 2), turned to SVG's y downward."""
+    closed = d.is_closed(line)
+    points = line[:-1] if closed else line
+    pairs = [f"{number(x)},{number(height - y)}" for x, y in points.tolist()]
+    return "M " + " L ".join(pairs) + (" Z" if closed else "")
+
+
+def canvas(width: float, height: float) -> svgwrite.Drawing:
+    """Return an empty drawing of this size: mm outside, mm inside."""
+    import svgwrite
+
+    size = (f"{number(width)}mm", f"{number(height)}mm")
+    box = f"0 0 {number(width)} {number(height)}"
+    return svgwrite.Drawing(size=size, viewBox=box, debug=False)
+
+
+def to_bytes(drawing: svgwrite.Drawing) -> bytes:
+    """Return the file: indented, UTF-8, newline at its end."""
+    from io import StringIO
+
+    out = StringIO()
+    drawing.write(out, pretty=True, indent=1)
+    return out.getvalue().encode("utf-8")
+
+
+def _svg(plan: Plan, view: d.Drawing) -> bytes:
+    from svgwrite.extensions import Inkscape
+
+    svg = canvas(view.width, view.height)
+    layers = Inkscape(svg)
+    svg.set_desc(title=view.note)
+    for group in view.groups:
+        layer = layers.layer(label=_label(plan, group))
+        _add_lines(svg, layer, group.layer, group.lines, view.height)
+        svg.add(layer)
+    anchor = layers.layer(label=d.ANCHOR.name)
+    _add_lines(svg, anchor, d.ANCHOR, tuple(d.anchors(view.width, view.height)), view.height)
+    svg.add(anchor)
+    note = layers.layer(label=d.NOTE.name)
+    note.add(_text(svg, view))
+    svg.add(note)
+    return to_bytes(svg)
+
+
+def _label(plan: Plan, group: d.Group) -> str:
+    selects = plan.machine.tools.change == "select"
+    pen = group.setup.tool if selects else group.layer.pen
+    speed, force = hpgl.speed(group.setup), hpgl.force(group.setup)
+    return f"{group.layer.name} Pen {pen} Speed {speed} Force {force}"
+
+
+def _add_lines(
+    svg: svgwrite.Drawing,
+    to: svgwrite.container.Group,
+    layer: d.Layer,
+    lines: tuple[d.Floats, ...],
+    height: float,
+) -> None:
+    for line in lines:
+        to.add(svg.path(d=path(line, height), style=STROKE.format(layer.colour)))
+
+
+def _text(svg: svgwrite.Drawing, view: d.Drawing) -> svgwrite.text.Text:
+    x, y = d.NOTE_AT
+    style = f"font-family:sans-serif;font-size:{d.NOTE_HEIGHT}px;fill:{d.NOTE.colour}"
+    return svg.text(view.note, insert=(number(x), number(view.height - y)), style=style)
