@@ -159,14 +159,15 @@ def codes_of(letters: str | Iterable[str]) -> Codes:
 def default_angles(codes: Codes) -> Floats:
     """Return the angles of a pattern folded flat: -180 for M, 180 for V, 0 for all others, deg."""
     sign = (codes == Assignment.V).astype(float) - (codes == Assignment.M)
-    return 180.0 * sign
+    angles: Floats = 180.0 * sign
+    return angles
 
 
 def _frozen(
     name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]
 ) -> NDArray[np.generic]:
     try:
-        array = np.array(value, dtype=dtype)
+        array: NDArray[np.generic] = np.array(value, dtype=dtype)
         array = array.reshape(shape) if array.size == 0 else array
     except (TypeError, ValueError) as error:
         raise InvalidPattern(f"{name}: {error}.") from None
@@ -221,7 +222,7 @@ def _validate_faces(pattern: CreasePattern) -> None:
         _refuse(inner & (sides != 2), "edge {} is a crease, but has not a face on either side")
 
 
-def _refuse(faults: Flags, sentence: str) -> None:
+def _refuse(faults: ArrayLike, sentence: str) -> None:
     where = np.flatnonzero(faults)
     if len(where):
         more = f" (and {len(where) - 1} more)" if len(where) > 1 else ""

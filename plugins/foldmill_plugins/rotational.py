@@ -9,50 +9,53 @@ from foldmill.axisymmetric import rosette, strip
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 
 
+def _points(words: str) -> dict[int, LinePoint]:
+    """Read points as "a" or "a-" (the other branch), from the innermost one outwards."""
+    return {
+        i: LinePoint(a=float(word.rstrip("-")), branch=-1 if word.endswith("-") else 1)
+        for i, word in enumerate(words.split(), start=1)
+    }
+
+
+def _bowl() -> dict[int, LinePoint]:
+    return _points("40 56 76 100- 117 121-")
+
+
 class RotationalParams(Params):
     """N wedges, an opening angle and the points of one half wedge."""
 
-    n: Count = Field(8, ge=3, le=72)
+    n: Count = Field(default=8, ge=3, le=72)
     """Order of rotational symmetry: how many wedges go round."""
-    phi: Angle = Field(66.0, ge=0, le=180)
+    phi: Angle = Field(default=75.0, ge=0, le=180)
     """Angle between the innermost crease and the axis; 90 is the flat sheet."""
-    points: LinePoints = Field(
-        default_factory=lambda: {
-            1: LinePoint(a=40),
-            2: LinePoint(a=62),
-            3: LinePoint(a=92),
-            4: LinePoint(a=118),
-        }
-    )
+    points: LinePoints = Field(default_factory=_bowl)
     """Points p_1, p_2 … outwards: odd ones on line l1, even ones on line l2, 180°/N from it."""
 
 
 def generate(params: RotationalParams) -> Fold:
-    """Solve the strip and turn it into the whole form."""
+    """Solve the strip and turn it into the whole form.
+
+    Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
+    """
     solved = strip.solve(params.n, params.phi, dict(params.points))
     return rosette.fold(rosette.assemble(rosette.HalfWedge.of(solved)), wedge_decides=True)
 
 
-def _preset(n: int, phi: float, points: str) -> RotationalParams:
-    """Read points as "a" or "a-" (the other branch), from the innermost one outwards."""
-    numbered = enumerate(points.split(), start=1)
-    return RotationalParams(
-        n=n,
-        phi=phi,
-        points={
-            i: LinePoint(a=float(word.rstrip("-")), branch=-1 if word.endswith("-") else 1)
-            for i, word in numbered
-        },
-    )
-
+# Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
+PRESETS = {
+    "bowl-n8": RotationalParams(),
+    "crown-n6": RotationalParams(n=6, phi=80, points=_points("31 58 84 86- 123 128")),
+    "lampshade-n12": RotationalParams(n=12, phi=120, points=_points("56 77- 84- 116 129-")),
+    "star-n6": RotationalParams(n=6, phi=100, points=_points("50 79- 87- 117 113")),
+}
 
 DESIGN = Design(
     slug="rotational",
     title="Axisymmetric form from a rotationally symmetric pattern",
     params=RotationalParams,
     generate=generate,
-    presets={},
-    references=("Zhao, thesis, chapter 3: rotationally-symmetric crease patterns",),
+    presets=PRESETS,
+    references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
 
 

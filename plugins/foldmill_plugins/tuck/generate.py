@@ -54,10 +54,11 @@ def _add_flaps(
             f"There is no blank beside point {idle[0]}, so it needs no tuck: leave that tuck out, "
             f"or move the point off its line by giving it r and z."
         )
-    faces, flaps = half.faces.tolist(), []
+    faces: list[list[int]] = half.faces.tolist()
+    flaps: list[_Flap] = []
     for blank in found:
         corner, (a, b) = len(half.flat) + len(flaps), blank.ends
-        pair = [(a, blank.point, corner), (corner, blank.point, b)]
+        pair = [[a, blank.point, corner], [corner, blank.point, b]]
         faces += pair if blank.point % 2 == 0 else [triangle[::-1] for triangle in pair]
         tuck = chosen.get(blank.point, Tuck(point=blank.point))
         flaps.append(_Flap(blank, tuck, corner, (len(faces) - 2, len(faces) - 1)))

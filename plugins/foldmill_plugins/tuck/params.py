@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from foldmill import Angle, Count, Length, Params
-from foldmill.axisymmetric.points import Points
+from foldmill.axisymmetric.points import FreePoint, LinePoint, Points
 
 
 class Tuck(Params):
@@ -22,7 +22,7 @@ class Tuck(Params):
     """Which of two mirror images all the tucks take: 1 leans counter-clockwise seen from above."""
 
 
-def _default_points() -> Points:
+def _default_points() -> dict[int, LinePoint | FreePoint]:
     from foldmill_plugins.tuck.stools import STOOL_N8_POINTS
 
     return dict(STOOL_N8_POINTS)
@@ -31,9 +31,9 @@ def _default_points() -> Points:
 class TuckParams(Params):
     """N wedges, an opening angle, the points of one half wedge, and the tucks."""
 
-    n: Count = Field(8, ge=3, le=72)
+    n: Count = Field(default=8, ge=3, le=72)
     """Order of rotational symmetry: how many wedges go round."""
-    phi: Angle = Field(90.0, ge=0, le=180)
+    phi: Angle = Field(default=90.0, ge=0, le=180)
     """Angle between the innermost crease and the axis; 90 is a flat centre."""
     points: Points = Field(default_factory=_default_points)
     """Points p_1, p_2 … outwards, odd ones on line l1, even ones on line l2; a point given by r and

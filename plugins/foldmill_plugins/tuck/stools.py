@@ -7,7 +7,7 @@ from math import cos, radians
 from foldmill.axisymmetric.points import FreePoint, LinePoint
 from foldmill_plugins.tuck.params import Tuck, TuckParams
 
-STOOL_N8_POINTS = {
+STOOL_N8_POINTS: dict[int, LinePoint | FreePoint] = {
     1: LinePoint(a=110),
     2: LinePoint(a=110 / cos(radians(22.5))),
     3: LinePoint(a=172.48, gamma=-108.2),
