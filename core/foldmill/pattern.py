@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -91,14 +92,16 @@ class CreasePattern:
 
         vertices : (V, 2) mm; edges : (E, 2); assignments : E letters of "BMVFUC";
         fold_angles : (E,) deg, by default -180 for M, 180 for V, 0 for the others.
-        The lines must not cross between vertices.
+        The lines must not cross between vertices; raises InvalidPattern where they do.
         """
-        points = np.asarray(vertices, np.float64)
-        lines = np.asarray(edges, np.intp)
+        points = _frozen("vertices", vertices, np.float64, (-1, 2))
+        lines = _frozen("edges", edges, np.intp, (-1, 2))
         codes = codes_of(assignments)
         if len(codes) != len(lines):
             raise InvalidPattern(f"{len(lines)} edges need as many assignments, not {len(codes)}.")
-        angles = default_angles(codes) if fold_angles is None else np.asarray(fold_angles, float)
+        given = default_angles(codes) if fold_angles is None else fold_angles
+        angles = _frozen("fold_angles", given, np.float64, (-1,))
+        _validate_ends(points, lines)
         polygons = planar.polygons(points, lines)
         faces, owners, extra = planar.triangulate(points, polygons)
         return cls(
@@ -163,24 +166,36 @@ def default_angles(codes: Codes) -> Floats:
     return angles
 
 
+Number = TypeVar("Number", bound=np.generic)
+
+
 def _frozen(
-    name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]
-) -> NDArray[np.generic]:
+    name: str, value: ArrayLike, dtype: type[Number], shape: tuple[int, ...]
+) -> NDArray[Number]:
     try:
-        array: NDArray[np.generic] = np.array(value, dtype=dtype)
+        with np.errstate(invalid="ignore"):  # nan has no whole number; the comparison says so
+            array = np.array(value, dtype=dtype)
+        if np.issubdtype(dtype, np.integer) and not np.array_equal(array, np.asarray(value)):
+            raise ValueError("its numbers must be whole and in range")
         array = array.reshape(shape) if array.size == 0 else array
-    except (TypeError, ValueError) as error:
-        raise InvalidPattern(f"{name}: {error}.") from None
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidPattern(f"{name}: {str(error).rstrip('.')}.") from None
     if array.ndim != len(shape) or (len(shape) > 1 and array.shape[1] != shape[1]):
-        raise InvalidPattern(f"{name} has the shape {array.shape}, not (n, {shape[-1]}).")
+        wanted = "(n,)" if len(shape) == 1 else f"(n, {shape[1]})"
+        raise InvalidPattern(f"{name} has the shape {array.shape}, not {wanted}.")
     array.flags.writeable = False
     return array
 
 
 def _validate(pattern: CreasePattern) -> None:
-    _refuse(~np.isfinite(pattern.vertices).all(axis=1), "vertex {} is not finite")
+    _validate_ends(pattern.vertices, pattern.edges)
     _validate_edges(pattern)
     _validate_faces(pattern)
+
+
+def _validate_ends(vertices: Floats, edges: Indices) -> None:
+    _refuse(~np.isfinite(vertices).all(axis=1), "vertex {} is not finite")
+    _refuse(((edges < 0) | (edges >= len(vertices))).any(axis=1), "edge {} names no vertex")
 
 
 def _validate_edges(pattern: CreasePattern) -> None:
@@ -188,8 +203,6 @@ def _validate_edges(pattern: CreasePattern) -> None:
     for name in ("assignments", "fold_angles", "added"):
         if len(getattr(pattern, name)) != len(edges):
             raise InvalidPattern(f"{len(edges)} edges need as many {name}.")
-    count = len(pattern.vertices)
-    _refuse(((edges < 0) | (edges >= count)).any(axis=1), "edge {} names no vertex")
     _refuse(pattern.edge_lengths < COINCIDENT_MM, "edge {} has no length")
     ordered = np.sort(edges, axis=1)
     _, first = np.unique(ordered, axis=0, return_index=True)

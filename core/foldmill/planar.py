@@ -8,6 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.errors import InvalidPattern
+from foldmill.tolerances import ON_LINE
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -85,7 +88,8 @@ def signed_area(loop: Floats) -> float:
 def triangulate(points: Floats, loops: list[list[int]]) -> tuple[Indices, Indices, Indices]:
     """Cut simple polygons into triangles without new vertices.
 
-    Returns faces (F, 3), the polygon (F,) each is part of, and the added edges (A, 2).
+    Returns faces (F, 3), the polygon (F,) each is part of, and the added edges (A, 2). Raises
+    InvalidPattern for a polygon whose lines cross.
     """
     faces: list[tuple[int, ...]] = []
     owners: list[int] = []
@@ -109,14 +113,27 @@ def _cut_polygon(points: Floats, loop: list[int]) -> list[tuple[int, ...]]:
     import shapely
 
     index = {tuple(points[k]): k for k in loop}
-    cut = shapely.constrained_delaunay_triangles(shapely.Polygon(points[loop]))
-    triangles = []
-    for part in cut.geoms:
-        corners = [index[tuple(c)] for c in shapely.get_coordinates(part.exterior)[:3]]
-        ccw = corners if signed_area(points[corners]) > 0 else corners[::-1]
-        k = ccw.index(min(ccw))
-        triangles.append(tuple(ccw[k:] + ccw[:k]))
+    try:
+        cut = shapely.constrained_delaunay_triangles(shapely.Polygon(points[loop]))
+        corners = [shapely.get_coordinates(part.exterior)[:3] for part in cut.geoms]
+        triangles = [_ascending(points, [index[tuple(c)] for c in three]) for three in corners]
+    except (shapely.GEOSException, KeyError):  # KeyError: a corner where no vertex is
+        triangles = []
+    area, covered = signed_area(points[loop]), sum(signed_area(points[list(t)]) for t in triangles)
+    if abs(area - covered) > ON_LINE * area:
+        x, y = points[loop[0]]
+        raise InvalidPattern(
+            f"The lines around the polygon at ({x:g}, {y:g}) mm cross or overlap between its "
+            f"{len(loop)} vertices; give them a vertex wherever they meet."
+        )
     return sorted(triangles)
+
+
+def _ascending(points: Floats, corners: list[int]) -> tuple[int, ...]:
+    """Return a triangle counter-clockwise, its lowest number first."""
+    ccw = corners if signed_area(points[corners]) > 0 else corners[::-1]
+    k = ccw.index(min(ccw))
+    return tuple(ccw[k:] + ccw[:k])
 
 
 def loops(points: Floats, edges: Indices) -> list[Indices]:

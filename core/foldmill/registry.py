@@ -112,6 +112,8 @@ def _collect(module: Any, name: str, specs: Iterable[ModuleType]) -> list[tuple[
     found = []
     for caller in manager.get_hookcallers(module) or []:
         for group in caller():
+            if not isinstance(group, Iterable):
+                raise PluginFault(f"{caller.name} returned {type(group).__name__}, not a list")
             found += [(caller.name, value) for value in group]
     if not found:  # pluggy drops None, so a forgotten return would pass unseen
         raise PluginFault("it offers nothing; does each of its hooks return a list?")
@@ -119,6 +121,7 @@ def _collect(module: Any, name: str, specs: Iterable[ModuleType]) -> list[tuple[
 
 
 def _admit(registry: Registry, plugin: str, owner: str, found: list[tuple[str, Any]]) -> None:
+    admitted: dict[tuple[str, str], Offer] = {}
     for hook, value in found:
         if hook == _HOOKSPECS:
             continue
@@ -128,6 +131,8 @@ def _admit(registry: Registry, plugin: str, owner: str, found: list[tuple[str, A
         taken = registry.offers.get(hook, {}).get(slug)
         if taken:
             raise PluginFault(f"the slug {slug!r} is taken by {taken.owner} ({taken.plugin})")
-    for hook, value in found:
-        if hook != _HOOKSPECS:
-            registry.offers.setdefault(hook, {})[value.slug] = Offer(value, plugin, owner)
+        if (hook, slug) in admitted:
+            raise PluginFault(f"the slug {slug!r} is offered twice")
+        admitted[hook, slug] = Offer(value, plugin, owner)
+    for (hook, slug), offer in admitted.items():  # all or nothing
+        registry.offers.setdefault(hook, {})[slug] = offer

@@ -1,0 +1,99 @@
+"""A design's parameters are declared once and refused in sentences."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from pydantic import Field, ValidationError
+
+from foldmill import (
+    CreasePattern,
+    Design,
+    Fold,
+    InvalidParameters,
+    Length,
+    Params,
+    UnknownName,
+)
+
+
+class StripParams(Params):
+    side: Length = Field(default=100.0, le=2000)
+    """Side of the square."""
+    folds: bool = True
+    """Whether the diagonal folds."""
+
+
+def diagonal(params: StripParams) -> Fold:
+    s = params.side
+    lines = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]
+    corners: list[list[float]] = [[0, 0], [s, 0], [s, s], [0, s]]
+    letters = "BBBBV" if params.folds else "BBBBF"
+    return Fold(CreasePattern.from_lines(corners, lines, letters), meta={"note": "hand-made"})
+
+
+DIAGONAL = Design(
+    slug="diagonal",
+    title="One diagonal fold",
+    params=StripParams,
+    generate=diagonal,
+    presets={"a4": StripParams(side=210)},
+)
+
+
+def test_a_run_records_which_design_and_parameters_it_was() -> None:
+    fold = DIAGONAL.run({"side": 50})
+    assert fold.pattern.size == 50
+    assert fold.meta["title"] == "One diagonal fold"
+    assert fold.meta["note"] == "hand-made"
+    assert fold.meta["design"] == {
+        "slug": "diagonal",
+        "version": "1",
+        "params": {"side": 50.0, "folds": True},
+    }
+
+
+def test_what_was_recorded_runs_again_to_the_same_pattern() -> None:
+    first = DIAGONAL.run(DIAGONAL.preset("a4"))
+    again = DIAGONAL.run(first.meta["design"]["params"])
+    assert np.array_equal(first.pattern.vertices, again.pattern.vertices)
+
+
+def test_the_schema_states_unit_bounds_and_meaning() -> None:
+    side = DIAGONAL.schema()["properties"]["side"]
+    assert side["x-unit"] == "mm"
+    assert side["maximum"] == 2000
+    assert side["exclusiveMinimum"] == 0
+    assert side["description"] == "Side of the square."
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"side": 0}, r"side: Input should be greater than 0 \(got 0\)\."),
+        ({"side": 3000}, r"side: Input should be less than or equal to 2000 \(got 3000\)\."),
+        ({"side": float("nan")}, "side: Input should be a finite number"),
+        ({"side": "long"}, r"side: .* valid number.* \(got 'long'\)\."),
+        ({"width": 3}, r"width: Extra inputs are not permitted \(got 3\)\."),
+    ],
+)
+def test_a_value_out_of_bounds_is_named_with_what_was_given(
+    values: dict[str, object], sentence: str
+) -> None:
+    with pytest.raises(InvalidParameters, match=sentence):
+        DIAGONAL.run(values)
+
+
+def test_every_fault_gets_its_sentence() -> None:
+    with pytest.raises(InvalidParameters, match=r"side: .*\. width: .*\."):
+        DIAGONAL.run({"side": -1, "width": 2})
+
+
+def test_an_unknown_preset_is_answered_with_the_known_ones() -> None:
+    with pytest.raises(UnknownName, match=r"no preset of diagonal 'a5'. There are: a4\."):
+        DIAGONAL.preset("a5")
+
+
+def test_parameters_cannot_be_changed() -> None:
+    with pytest.raises(ValidationError, match="frozen"):
+        StripParams().side = 3
