@@ -23,8 +23,8 @@ Coordinate = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-u
 """A signed position in mm, finite."""
 Angle = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "deg"})]
 """An angle in degrees, finite."""
-Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
-"""A whole number from 1 to 1000."""
+Count = Annotated[int, Field(strict=True, gt=0)]
+"""A whole number, 1 or more. A field's own ``ge`` and ``le`` hold as well; its ``gt`` would not."""
 
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 

@@ -36,6 +36,8 @@ class FoldedForm:
                 raise InvalidPattern(f"The folded form's {name} must be finite, (n, {width}).")
             array.flags.writeable = False
             object.__setattr__(self, name, array)
+        if ((self.seams < 0) | (self.seams >= len(self.vertices))).any():
+            raise InvalidPattern("The folded form's seams name a vertex that is not there.")
 
     @property
     def size(self) -> float:
@@ -65,7 +67,8 @@ def fold_angles(
     inner = (edge_faces >= 0).all(axis=1)
     f, g = normals[edge_faces[inner, 0]], normals[edge_faces[inner, 1]]
     along = points[edges[inner, 1]] - points[edges[inner, 0]]
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    lengths = np.linalg.norm(along, axis=1, keepdims=True)
+    along = along / np.where(lengths > 0, lengths, 1.0)
     sine = np.einsum("ij,ij->i", np.cross(f, g), along)
     angles = np.zeros(len(edges))
     angles[inner] = -np.degrees(np.arctan2(sine, np.einsum("ij,ij->i", f, g)))

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.folded import face_normals
 from foldmill.planar import edge_faces
 from foldmill.tolerances import PENETRATION
 
@@ -64,7 +65,8 @@ def _crossing(vertices: Floats, faces: Indices, pairs: Indices, eps: float) -> I
     if not len(pairs):
         return pairs
     one, two = vertices[faces[pairs[:, 0]]], vertices[faces[pairs[:, 1]]]
-    normal_one, normal_two = _normals(one), _normals(two)
+    normals = face_normals(vertices, faces)
+    normal_one, normal_two = normals[pairs[:, 0]], normals[pairs[:, 1]]
     height_two = np.einsum("nij,nj->ni", two - one[:, :1], normal_one)
     height_one = np.einsum("nij,nj->ni", one - two[:, :1], normal_two)
     keep = _straddles(height_one, eps) & _straddles(height_two, eps)
@@ -75,12 +77,6 @@ def _crossing(vertices: Floats, faces: Indices, pairs: Indices, eps: float) -> I
     overlap = np.minimum(high_one, high_two) - np.maximum(low_one, low_two)
     hit: Indices = pairs[keep][overlap > eps]
     return hit
-
-
-def _normals(triangles: Floats) -> Floats:
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    unit: Floats = normal / np.linalg.norm(normal, axis=1, keepdims=True)
-    return unit
 
 
 def _straddles(heights: Floats, eps: float) -> Flags:
@@ -108,11 +104,10 @@ def _along_edges(
     around = edge_faces(edges, faces)
     inner = np.flatnonzero((around >= 0).all(axis=1))
     hits: list[tuple[int, int]] = []
-    normals = _normals(vertices[faces])
+    normals = face_normals(vertices, faces)
     is_wanted = np.isin(np.arange(len(faces)), wanted)
+    height = vertices @ normals.T - np.einsum("fi,fi->f", normals, vertices[faces[:, 0]])
     for block in np.array_split(inner, max(1, len(inner) * len(faces) // _BLOCK)):
-        base = np.einsum("fi,fi->f", normals, vertices[faces[:, 0]])
-        height = vertices @ normals.T - base
         in_plane = (np.abs(height[edges[block]]) <= eps).all(axis=1)
         left, right = (_third_height(height, edges, faces, block, around[block, k]) for k in (0, 1))
         passes = in_plane & (np.minimum(left, right) < -eps) & (np.maximum(left, right) > eps)

@@ -1,0 +1,36 @@
+"""Is this pattern a sheet, does it fold without stretching, and does it pass through itself?
+
+``check(fold)`` runs every rule of this package over a fold and returns their findings and figures.
+A rule never raises for what it finds. What needs the folded form is "not checked" without one.
+"""
+
+from __future__ import annotations
+
+from foldmill.check.assignment import assignment
+from foldmill.check.developability import developability
+from foldmill.check.isometry import isometry
+from foldmill.check.penetration import penetration
+from foldmill.check.planarity import planarity
+from foldmill.check.report import NOT_CHECKED, Figure, Report
+from foldmill.design import Fold
+
+RULES = (planarity, developability, isometry, assignment, penetration)
+"""Every rule, in the order in which a person would ask."""
+
+__all__ = [
+    "NOT_CHECKED",
+    "RULES",
+    "Figure",
+    "Report",
+    "assignment",
+    "check",
+    "developability",
+    "isometry",
+    "penetration",
+    "planarity",
+]
+
+
+def check(fold: Fold) -> Report:
+    """Return what all rules say of a fold."""
+    return Report.joined(rule(fold) for rule in RULES)

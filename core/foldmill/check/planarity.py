@@ -1,0 +1,161 @@
+"""Is the pattern a planar straight-line graph with one outline, and do its faces fill that outline?
+
+Edges meet only in vertices; every vertex is one point; the boundary is one simple polygon. Together
+with faces that run counter-clockwise this leaves no paper upon paper.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldmill import planar
+from foldmill.check.report import Figure, Report, counted, edge_name, vertex_name
+from foldmill.design import Fold
+from foldmill.finding import Finding, Severity
+from foldmill.pattern import Assignment, CreasePattern, Flags, Floats, Indices
+from foldmill.tolerances import COINCIDENT_MM
+
+
+def planarity(fold: Fold) -> Report:
+    """Look for vertices upon vertices and edges, edges across edges, and a broken outline."""
+    pattern = fold.pattern
+    size = np.ptp(pattern.vertices, axis=0) if len(pattern.vertices) else np.zeros(2)
+    figures: dict[str, Figure] = {
+        "vertices": len(pattern.vertices),
+        "edges": len(pattern.edges),
+        "faces": len(pattern.faces),
+        "width_mm": float(size[0]),
+        "height_mm": float(size[1]),
+    }
+    return Report.joined([Report((), figures), _graph(pattern), _outline(pattern)])
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """What keeps lines from being a planar straight-line graph."""
+
+    coincident: Indices
+    """(k, 2) pairs of vertices that are one point."""
+    lying: Indices
+    """(k, 2) a vertex, and an edge that runs through it."""
+    crossing: Indices
+    """(k, 2) pairs of edges that cross between their ends."""
+
+
+def faults(points: Floats, edges: Indices) -> Faults:
+    """Find what keeps points (V, 2) and edges (E, 2) from being a planar straight-line graph."""
+    import shapely
+
+    spots, lines = shapely.points(points), shapely.linestrings(points[edges])
+    tree = shapely.STRtree(lines)
+    pairs = shapely.STRtree(spots).query(spots, "dwithin", COINCIDENT_MM).T
+    beside = tree.query(spots, "dwithin", COINCIDENT_MM).T
+    across = tree.query(lines).T
+    return Faults(
+        _sorted(pairs[pairs[:, 0] < pairs[:, 1]]),
+        _sorted(beside[_is_inside(points, edges, beside)]),
+        _sorted(across[_is_crossing(points, edges, across)]),
+    )
+
+
+def _sorted(pairs: Indices) -> Indices:
+    ordered: Indices = pairs[np.lexsort(pairs.T[::-1])]
+    return ordered
+
+
+def _is_inside(points: Floats, edges: Indices, pairs: Indices) -> Flags:
+    """Tell which vertices near an edge lie at neither of its ends."""
+    spots, ends = points[pairs[:, 0]], points[edges[pairs[:, 1]]]
+    away = np.linalg.norm(ends - spots[:, None], axis=2)
+    inside: Flags = (away > COINCIDENT_MM).all(axis=1)
+    return inside
+
+
+def _is_crossing(points: Floats, edges: Indices, pairs: Indices) -> Flags:
+    """Tell which edges have their ends on both sides of each other."""
+    one, two = edges[pairs[:, 0]], edges[pairs[:, 1]]
+    apart = (one[:, :, None] != two[:, None, :]).all(axis=(1, 2)) & (pairs[:, 0] < pairs[:, 1])
+    straddles = [_straddles(points[a], points[b]) for a, b in ((one, two), (two, one))]
+    crossing: Flags = apart & straddles[0] & straddles[1]
+    return crossing
+
+
+def _straddles(line: Floats, other: Floats) -> Flags:
+    """Tell whether the ends of ``other`` (n, 2, 2) lie on both sides of ``line`` (n, 2, 2)."""
+    along = line[:, 1] - line[:, 0]
+    unit = along / np.linalg.norm(along, axis=1, keepdims=True)
+    step = other - line[:, :1]
+    height = unit[:, None, 0] * step[:, :, 1] - unit[:, None, 1] * step[:, :, 0]
+    both: Flags = (height.min(axis=1) < -COINCIDENT_MM) & (height.max(axis=1) > COINCIDENT_MM)
+    return both
+
+
+def _graph(pattern: CreasePattern) -> Report:
+    found = faults(pattern.vertices, pattern.edges)
+    figures: dict[str, Figure] = {
+        "coincident_vertices": len(found.coincident),
+        "vertices_on_edges": len(found.lying),
+        "crossings": len(found.crossing),
+    }
+    findings = []
+    for a, b in found.coincident[:1]:
+        said = counted(len(found.coincident), "pair of vertices is", "pairs of vertices are")
+        where = f"{vertex_name(pattern, a)} and vertex {b}"
+        findings.append(_fault("coincident-vertices", where, f"{said} one point.", "Merge them."))
+    for vertex, edge in found.lying[:1]:
+        said = counted(len(found.lying), "vertex lies", "vertices lie")
+        where = f"{vertex_name(pattern, vertex)} on {edge_name(pattern, edge)}"
+        remedy = "Divide the edge at the vertex."
+        findings.append(_fault("vertex-on-edge", where, f"{said} inside an edge.", remedy))
+    for a, b in found.crossing[:1]:
+        said = counted(len(found.crossing), "pair of edges crosses", "pairs of edges cross")
+        where = f"{edge_name(pattern, a)} and {edge_name(pattern, b)}"
+        remedy = "Put a vertex where they cross."
+        findings.append(_fault("edges-cross", where, f"{said} between their ends.", remedy))
+    return Report(tuple(findings), figures)
+
+
+def _outline(pattern: CreasePattern) -> Report:
+    loops, border = pattern.outline(), pattern.count(Assignment.B)
+    figures: dict[str, Figure] = {"outline_loops": len(loops)}
+    stray = border - sum(len(loop) for loop in loops)
+    if len(loops) != 1 or stray:
+        said = f"The boundary has {counted(len(loops), 'closed loop', 'closed loops')}"
+        said += f" and {counted(stray, 'edge', 'edges')} beside." if stray else ", not one."
+        remedy = "A sheet has one outline; draw cuts inside it as cuts."
+        return Report((_fault("outline", "outline", said, remedy),), figures)
+    reason = _broken(pattern.vertices[loops[0]])
+    if reason:
+        remedy = "Move its vertices apart."
+        return Report((_fault("outline", "outline", reason, remedy),), figures)
+    return Report.joined([Report((), figures), _filling(pattern, pattern.vertices[loops[0]])])
+
+
+def _broken(loop: Floats) -> str:
+    import shapely
+
+    outline = shapely.Polygon(loop)
+    if outline.is_valid:
+        return ""
+    return f"The outline meets itself ({shapely.is_valid_reason(outline)})."
+
+
+def _filling(pattern: CreasePattern, loop: Floats) -> Report:
+    area = planar.signed_area(loop)
+    corners = pattern.vertices[pattern.faces]
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    gap = area - float((one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()) / 2
+    figures: dict[str, Figure] = {"area_mm2": area, "area_gap_mm2": abs(gap)}
+    rim = float(np.linalg.norm(loop - np.roll(loop, -1, axis=0), axis=1).sum())
+    if abs(gap) <= COINCIDENT_MM * rim:
+        return Report((), figures)
+    said = "leave open" if gap > 0 else "overlap by"
+    message = f"The faces {said} {abs(gap):.6g} of the {area:.6g} mm² inside the outline."
+    remedy = "Faces must fill the sheet once."
+    return Report((_fault("faces", "faces", message, remedy),), figures)
+
+
+def _fault(code: str, where: str, message: str, remedy: str) -> Finding:
+    return Finding(code, Severity.ERROR, where, message, remedy)

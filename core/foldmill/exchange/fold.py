@@ -1,0 +1,214 @@
+"""FOLD 1.2, out and in, in the profile that every known reader accepts.
+
+Always numbers for the fold angles, never the letters J and C, coordinates in mm. The folded form is
+a second frame. Reading keeps in ``Fold.meta["fold"]`` whatever foldmill does not understand, and
+writing gives it back:
+
+``frame``, ``folded``
+    the other keys of the pattern's frame and of the folded form's; arrays over the elements fit the
+    pattern's vertices, edges that are not added, and polygons
+``frames``
+    all further frames as they are, except that parents are numbered 0 for the pattern, 1 for the
+    folded form, and from 2 on for these
+``corners``
+    the vertex with which each polygon begins
+``notes``
+    sentences for people about what had to be supposed; they are not written
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from foldmill.design import Fold, Symmetry
+from foldmill.errors import InvalidPattern, UnreadableFile
+from foldmill.exchange import cuts, frames, json_text
+from foldmill.exchange.elements import array, coordinates
+from foldmill.exchange.graph import Graph, middle, of_polygons, of_triangles
+from foldmill.exchange.json_text import Frame, plain
+from foldmill.exchange.keys import ADDED, DESIGN, POLYGON, SEAMS, SYMMETRY
+from foldmill.exchange.sheet import Sheet, read_sheet, scale
+from foldmill.folded import FoldedForm
+from foldmill.pattern import Floats
+
+_CLASSES = ("creasePattern", "foldedForm")
+
+
+def read(text: str, name: str = "") -> Fold:
+    """Return the fold in the text of a FOLD file; ``name`` is for the sentences of refusals.
+
+    Raises UnreadableFile, saying which element is wrong and how.
+    """
+    try:
+        return _read(json_text.parse(text))
+    except (UnreadableFile, InvalidPattern) as error:
+        place = f"{name}: " if name else ""
+        raise UnreadableFile(f"{place}{error}") from None
+
+
+def _read(data: Frame) -> Fold:
+    every = frames.frames_of(data)
+    first, second = frames.pick(every)
+    notes: list[str] = []
+    frame = frames.resolved(every, first)
+    frame |= {key: value for key, value in data.items() if key.startswith("file_")}
+    sheet = read_sheet(frame, notes)
+    kept: dict[str, Any] = {"frame": sheet.foreign(frame), "corners": sheet.corners, "notes": notes}
+    meta: dict[str, Any] = {"fold": kept}
+    folded = None
+    if second is not None:
+        solid = frames.resolved(every, second)
+        folded = _folded(solid, sheet)
+        own = {key: value for key, value in solid.items() if frame.get(key) != value}
+        kept["folded"] = sheet.foreign(own)
+    kept["frames"] = [_kept(each, sheet, frame) for each in frames.others(every, first, second)]
+    if isinstance(frame.get("file_title"), str):
+        meta["title"] = frame["file_title"]
+    if isinstance(frame.get(DESIGN), dict):
+        meta["design"] = kept["frame"].pop(DESIGN)
+    return Fold(sheet.pattern, folded, _symmetry(frame, sheet), meta)
+
+
+def _kept(other: Frame, sheet: Sheet, pattern: Frame) -> Frame:
+    """Return a further frame, changed only where it leans on what the pattern's frame was."""
+    if other.get("frame_inherit") is not True:
+        return other
+    kept = {key: sheet.kept(key, value) for key, value in other.items()}
+    unit = pattern.get("frame_unit", "mm")
+    return kept if unit in {"mm", "unit"} else {"frame_unit": unit, **kept}
+
+
+def _folded(frame: Frame, sheet: Sheet) -> FoldedForm:
+    places = np.array(coordinates(frame, 3)) * scale(frame, [])
+    seams = array(frame, SEAMS) if SEAMS in frame else []
+    try:
+        pairs = np.array(seams, np.intp).reshape(-1, 2)
+    except (TypeError, ValueError, OverflowError):
+        raise UnreadableFile(f"{SEAMS} must be a list of pairs of vertices.") from None
+    return FoldedForm(places[: len(sheet.pattern.vertices)], pairs)
+
+
+def _symmetry(frame: Frame, sheet: Sheet) -> Symmetry | None:
+    stated, count = frame.get(SYMMETRY), len(sheet.pattern.faces)
+    if stated is None:
+        return None
+    try:
+        order, one_sided = int(stated["order"]), stated["one_sided"] is True
+        wedge = np.array(stated["wedge"], np.intp).reshape(-1)
+    except (TypeError, ValueError, KeyError, OverflowError):
+        raise UnreadableFile(f"{SYMMETRY} must have an order, a wedge and one_sided.") from None
+    if order < 1 or ((wedge < 0) | (wedge >= count)).any():
+        raise UnreadableFile(f"{SYMMETRY} names faces that are not there, or an order below 1.")
+    return Symmetry(order, wedge, one_sided)
+
+
+def write(fold: Fold, *, triangulated: bool = False) -> str:
+    """Return a fold as the text of a FOLD file; the same fold gives the same text.
+
+    Polygons that came with an imported file are written whole. They stay triangles, with keys that
+    tell which edges were added, where ``triangulated`` asks for it or the fold's symmetry names
+    triangles.
+    """
+    kept = dict(fold.meta.get("fold", {}))
+    graph = cuts.split(_graph(fold, kept.get("corners", []), triangulated))
+    data = _head(fold, kept) | _pattern_frame(fold, graph) | _marks(graph) | _about(fold)
+    data |= _foreign(kept.get("frame", {}), graph, data)
+    further = _further_frames(fold, kept, graph)
+    return json_text.dump(data | ({"file_frames": further} if further else {}))
+
+
+def _graph(fold: Fold, corners: list[int], triangulated: bool) -> Graph:
+    names_triangles = fold.symmetry is not None and bool(np.any(fold.pattern.added))
+    whole = None if triangulated or names_triangles else of_polygons(fold.pattern, corners)
+    return whole or of_triangles(fold.pattern)
+
+
+def _marks(graph: Graph) -> Frame:
+    marks: Frame = cuts.marks(graph)
+    if graph.owners:
+        marks[ADDED] = [not source for source in graph.edge_source]
+        marks[POLYGON] = list(graph.owners.values())
+    return marks
+
+
+def _head(fold: Fold, kept: Frame) -> Frame:
+    other = kept.get("frame", {})
+    title = {"file_title": str(fold.meta["title"])} if fold.meta.get("title") else {}
+    return {
+        "file_spec": 1.2,
+        "file_creator": "foldmill",
+        **title,
+        "file_classes": other.get("file_classes", ["singleModel"]),
+        **_kind("creasePattern", "2D", other),
+        "frame_unit": "mm",
+    }
+
+
+def _kind(name: str, space: str, other: Frame) -> Frame:
+    """Return a frame's classes and attributes: what we know, and what came from elsewhere."""
+    classes = [each for each in _listed(other, "frame_classes") if each not in _CLASSES]
+    known = [space, "manifold", "orientable", "noCuts", "noJoins"]
+    custom = [each for each in _listed(other, "frame_attributes") if ":" in str(each)]
+    return {"frame_classes": [name, *classes], "frame_attributes": [*known, *custom]}
+
+
+def _listed(frame: Frame, key: str) -> list[Any]:
+    value = frame.get(key, [])
+    return value if isinstance(value, list) else [value]
+
+
+def _pattern_frame(fold: Fold, graph: Graph) -> Frame:
+    return {
+        "vertices_coords": _places(fold.pattern.vertices, graph),
+        "edges_vertices": [list(edge) for edge in graph.edges],
+        "edges_assignment": graph.letters,
+        "edges_foldAngle": [plain(angle) for angle in graph.angles],
+        "faces_vertices": graph.faces,
+    }
+
+
+def _places(vertices: Floats, graph: Graph) -> list[list[float]]:
+    places = vertices.tolist()
+    spread = [middle([places[i] for i in source]) for source in graph.vertex_source]
+    return [[plain(x) for x in place] for place in spread]
+
+
+def _about(fold: Fold) -> Frame:
+    about: Frame = {DESIGN: fold.meta["design"]} if "design" in fold.meta else {}
+    if fold.symmetry is not None:
+        about[SYMMETRY] = {
+            "order": fold.symmetry.order,
+            "wedge": fold.symmetry.wedge.tolist(),
+            "one_sided": fold.symmetry.one_sided,
+        }
+    return about
+
+
+def _foreign(other: Frame, graph: Graph, taken: Frame) -> Frame:
+    return {key: graph.spread(key, other[key]) for key in sorted(other) if key not in taken}
+
+
+def _further_frames(fold: Fold, kept: Frame, graph: Graph) -> list[Frame]:
+    others = [
+        {key: graph.spread(key, value) for key, value in frame.items()}
+        if frame.get("frame_inherit") is True
+        else frame
+        for frame in kept.get("frames", [])
+    ]
+    if fold.folded is not None:
+        return [_folded_frame(fold.folded, kept.get("folded", {}), graph), *others]
+    return frames.without_folded(others)
+
+
+def _folded_frame(folded: FoldedForm, other: Frame, graph: Graph) -> Frame:
+    seams = {SEAMS: folded.seams.tolist()} if len(folded.seams) else {}
+    frame = {
+        **_kind("foldedForm", "3D", other),
+        "frame_parent": frames.PATTERN,
+        "frame_inherit": True,
+        "vertices_coords": _places(folded.vertices, graph),
+        **seams,
+    }
+    return frame | _foreign(other, graph, frame)

@@ -1,0 +1,239 @@
+"""The contract every design keeps. Run it from your own test suite::
+
+    @pytest.mark.parametrize("check", design_checks(DESIGN), ids=str)
+    def test_contract(check):
+        check()
+
+A check raises AssertionError with a sentence that says what is wrong and where.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, get_args
+
+from pydantic import BaseModel
+
+from foldmill.check import check
+from foldmill.design import Design, Fold, Params
+from foldmill.errors import InvalidParameters
+from foldmill.exchange.fold import read, write
+from foldmill.finding import Severity
+from foldmill.schema import Bound, Leaf, leaves, objects, outside, placed
+
+_KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_NOTHING: Mapping[str, str] = {}
+
+
+@dataclass(frozen=True)
+class Check:
+    """One rule of the contract, for one design: a name, and a call that raises AssertionError."""
+
+    name: str
+    run: Callable[[], None]
+
+    def __call__(self) -> None:
+        """Run it; raises AssertionError."""
+        self.run()
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def design_checks(
+    design: Design[Any], expected_failures: Mapping[str, str] = _NOTHING
+) -> list[Check]:
+    """Return every check for one design: its schema, its bounds, its defaults and each preset.
+
+    expected_failures : check name → reason, for what is known to fail. Such a check passes as long
+    as it fails, and fails once it passes. Raises ValueError for a name that is no check's.
+    """
+    checks = [Check(name, partial(rule, design)) for name, rule in _RULES.items()]
+    for case in ["defaults", *design.presets]:
+        for name, each in _CASE_RULES.items():
+            checks.append(Check(f"{name}[{case}]", partial(each, design, case)))
+    unknown = sorted(set(expected_failures) - {check.name for check in checks})
+    if unknown:
+        known = ", ".join(check.name for check in checks)
+        raise ValueError(f"There is no check {unknown[0]!r}. There are: {known}.")
+    return [_expected(check, expected_failures.get(check.name)) for check in checks]
+
+
+def _expected(check: Check, reason: str | None) -> Check:
+    return check if reason is None else Check(check.name, partial(_must_fail, check, reason))
+
+
+def _must_fail(check: Check, reason: str) -> None:
+    try:
+        check()
+    except Exception:  # whatever way it fails, it does what was said
+        return
+    raise AssertionError(
+        f"{check.name} passes, though it is said to fail: {reason}. Do not say so."
+    )
+
+
+def _require(holds: object, sentence: str) -> None:
+    if not holds:
+        raise AssertionError(sentence)
+
+
+def _params(design: Design[Any], case: str) -> Params:
+    params: Params = design.params() if case == "defaults" else design.presets[case]
+    return params
+
+
+def _slug(design: Design[Any]) -> None:
+    for word in (design.slug, *design.presets):
+        _require(_KEBAB.fullmatch(word), f"The name {word!r} must be lowercase words and hyphens.")
+    _require(design.title.strip(), f"The design {design.slug} needs a title.")
+
+
+def _documented(design: Design[Any]) -> None:
+    schema = design.schema()
+    json.dumps(schema, allow_nan=False)
+    for name, part in objects(schema):
+        for field, prop in part.get("properties", {}).items():
+            place = f"{name}.{field}".lstrip(".")
+            _require(prop.get("description"), f"{place}: document it with an attribute docstring.")
+
+
+def _closed(design: Design[Any]) -> None:
+    for name, part in objects(design.schema()):
+        if "properties" in part:
+            place = name or "the parameters"
+            is_closed = part.get("additionalProperties") is False
+            _require(
+                is_closed, f"{place}: derive it from Params, so that it refuses what is unknown."
+            )
+
+
+def _defaults(design: Design[Any]) -> None:
+    for name, field in design.params.model_fields.items():
+        _require(not field.is_required(), f"{name}: give it a default, so that the design runs.")
+
+
+def _units(design: Design[Any]) -> None:
+    for leaf in leaves(design.schema()):
+        if leaf.is_number and not leaf.is_integer:
+            said = f"{leaf.name}: use Length, Coordinate or Angle, or bound a ratio by 0 and 1."
+            _require(leaf.unit or leaf.is_ratio, said)
+
+
+def _unknown_refused(design: Design[Any]) -> None:
+    values = {"no-such-parameter": 1}
+    _refused(design, values, "no-such-parameter", "a parameter that does not exist")
+
+
+def _bounds_kept(design: Design[Any]) -> None:
+    for values, leaf, bound in _out_of_bounds(design):
+        number = f"{outside(bound, leaf.is_integer)!r}, beyond its bound {bound.value:g},"
+        _refused(design, values, leaf.name, f"{leaf.name} = {number}")
+
+
+def _bounds_hold(design: Design[Any]) -> None:
+    """Of two bounds of one sort, a quantity's and a field's, pydantic keeps the quantity's."""
+    for model in _models(design.params):
+        for name, field in model.model_fields.items():
+            for sort, tightest in (("ge", max), ("gt", max), ("le", min), ("lt", min)):
+                stated = [getattr(each, sort, None) for each in field.metadata]
+                values = [value for value in stated if value is not None]
+                said = (
+                    f"{model.__name__}.{name}: {sort}={values} contradict, and only the last holds."
+                )
+                _require(not values or values[-1] == tightest(values), said)
+
+
+def _models(kind: Any) -> Iterator[type[BaseModel]]:
+    """Yield the parameter models in a type, the type itself and those of its fields included."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        yield kind
+        for field in kind.model_fields.values():
+            yield from _models(field.annotation)
+    for part in get_args(kind):
+        yield from _models(part)
+
+
+def _out_of_bounds(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf, Bound]]:
+    for whole, leaf in _numbers(design):
+        for bound in leaf.bounds:
+            yield placed(whole, leaf.path, outside(bound, leaf.is_integer)), leaf, bound
+
+
+def _nan_refused(design: Design[Any]) -> None:
+    for whole, leaf in _numbers(design):
+        values = placed(whole, leaf.path, float("nan"))
+        _refused(design, values, leaf.name, f"{leaf.name} = NaN")
+
+
+def _numbers(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf]]:
+    """Yield every kind of number among the parameters once, with values that hold one of it."""
+    seen: set[str] = set()
+    for case in ["defaults", *design.presets]:
+        whole = _params(design, case).model_dump(mode="json")
+        for leaf in leaves(design.schema(), whole):
+            if leaf.is_number and leaf.kind not in seen:
+                seen.add(leaf.kind)
+                yield whole, leaf
+
+
+def _refused(design: Design[Any], values: dict[str, Any], name: str, what: str) -> None:
+    try:
+        design.validate(values)
+    except InvalidParameters as error:
+        parts = iter(str(error).split(":", 1)[0].split("."))
+        _require(all(p in parts for p in name.split(".")), f"{what} is refused without its name.")
+    else:
+        raise AssertionError(f"{what} is accepted; it must be refused.")
+
+
+def _presets(design: Design[Any]) -> None:
+    for name, preset in design.presets.items():
+        _require(isinstance(preset, design.params), f"{name}: a preset is a {design.params}.")
+        again = design.validate(preset.model_dump(mode="json"))
+        _require(again == preset, f"{name}: its values as JSON give other parameters.")
+
+
+def _returns_a_fold(design: Design[Any], case: str) -> None:
+    made = design.generate(_params(design, case))
+    _require(isinstance(made, Fold), f"generate returns {type(made).__name__}, not a Fold.")
+
+
+def _deterministic(design: Design[Any], case: str) -> None:
+    one, two = (write(design.run(_params(design, case))) for _ in range(2))
+    _require(one == two, "The same parameters give two different patterns.")
+
+
+def _without_errors(design: Design[Any], case: str) -> None:
+    findings = check(design.run(_params(design, case))).findings
+    errors = [str(finding) for finding in findings if finding.severity is Severity.ERROR]
+    _require(not errors, " ".join(errors))
+
+
+def _round_trip(design: Design[Any], case: str) -> None:
+    written = write(design.run(_params(design, case)))
+    _require(write(read(written)) == written, "Its FOLD file changes when it is read and written.")
+
+
+_RULES: dict[str, Callable[[Design[Any]], None]] = {
+    "slug": _slug,
+    "documented": _documented,
+    "closed": _closed,
+    "defaults": _defaults,
+    "units": _units,
+    "presets": _presets,
+    "unknown-refused": _unknown_refused,
+    "bounds-hold": _bounds_hold,
+    "bounds-kept": _bounds_kept,
+    "nan-refused": _nan_refused,
+}
+_CASE_RULES: dict[str, Callable[[Design[Any], str], None]] = {
+    "returns-a-fold": _returns_a_fold,
+    "deterministic": _deterministic,
+    "without-errors": _without_errors,
+    "fold-round-trip": _round_trip,
+}
