@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -194,7 +195,7 @@ def test_bytes_are_the_same_a_second_later_and_the_option_is_given_back() -> Non
 
 
 @pytest.mark.parametrize("seed", ["1", "2"])
-def test_bytes_are_the_same_in_another_process(seed: str, tmp_path: Path) -> None:
+def test_bytes_are_the_same_in_another_process(seed: str) -> None:
     code = (
         "import hashlib, hand_made as h\n"
         "from foldmill_fabricate.formats import dxf, svg\n"
@@ -203,7 +204,7 @@ def test_bytes_are_the_same_in_another_process(seed: str, tmp_path: Path) -> Non
     )
     here = hashlib.sha256(b"".join([*DXF.values(), *SVG.values()])).hexdigest()
     folder = str(Path(hand_made.__file__).parent)
-    environment = {"PYTHONPATH": folder, "PYTHONHASHSEED": seed, "HOME": str(tmp_path)}
+    environment = {**os.environ, "PYTHONPATH": folder, "PYTHONHASHSEED": seed}
     command = [sys.executable, "-c", code]
     said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert said.stdout.strip() == here

@@ -1,0 +1,76 @@
+"""A sheet of A4 whose coordinates are mm from its lower left corner, printed at true scale."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from foldmill_fabricate.pictures import canvas
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH, HEIGHT = 210.0, 297.0
+LEFT, RIGHT, TOP = 15.0, 195.0, 284.0
+LINE = 1.45
+"""Distance of baselines, in heights of the letters."""
+MM_PER_POINT = canvas.MM_PER_INCH / 72
+
+
+class Paper:
+    """One page. ``y`` is where the next line goes, mm; it wanders down as things are added."""
+
+    def __init__(self) -> None:
+        self.figure = canvas.figure(WIDTH, HEIGHT)
+        self.axes = self.figure.add_axes((0, 0, 1, 1))
+        self.axes.set_axis_off()
+        self.axes.set_xlim(0, WIDTH)
+        self.axes.set_ylim(0, HEIGHT)
+        self.y = TOP
+
+    def line(self, words: str, size: float = 9, indent: float = 0.0, **look: object) -> None:
+        """Add words, broken into lines that fit the page, ``indent`` mm from the margin."""
+        for part in textwrap.wrap(words, _letters(RIGHT - LEFT - indent, size)):
+            self.axes.text(LEFT + indent, self.y, part, fontsize=size, va="baseline", **look)  # type: ignore[arg-type]
+            self.y -= size * MM_PER_POINT * LINE
+
+    def heading(self, words: str) -> None:
+        """Add a heading with air above it."""
+        self.y -= 3.5
+        self.line(words, 11, weight="bold")
+        self.y -= 0.5
+
+    def row(
+        self, cells: Sequence[str], stops: Sequence[float], size: float = 8.5, **look: object
+    ) -> None:
+        """Add one row of a table; ``stops`` are the columns' left ends, mm from the margin."""
+        for cell, stop in zip(cells, stops, strict=True):
+            self.axes.text(LEFT + stop, self.y, cell, fontsize=size, va="baseline", **look)  # type: ignore[arg-type]
+        self.y -= size * MM_PER_POINT * LINE
+
+    def rule(self) -> None:
+        """Add a thin line under a table's head."""
+        height = self.y + 2.6
+        self.axes.plot([LEFT, RIGHT], [height, height], color="#808080", linewidth=0.5)
+        self.y -= 0.8
+
+    def window(self, x: float, y: float, width: float, height: float) -> Axes:
+        """Return axes for a picture, lower left corner and size in mm of the page."""
+        box = (x / WIDTH, y / HEIGHT, width / WIDTH, height / HEIGHT)
+        return canvas.flat_axes(self.figure, box)
+
+    def check_bar(self, y: float) -> None:
+        """Draw 100 mm that measure 100 mm where the page is printed at its own size."""
+        look = {"color": "black", "linewidth": 0.8, "solid_capstyle": "butt"}
+        self.axes.plot([LEFT, LEFT + 100], [y, y], **look)  # type: ignore[arg-type]
+        for tenth in range(11):
+            tick = 3.0 if tenth % 5 == 0 else 1.5
+            self.axes.plot([LEFT + 10 * tenth] * 2, [y, y + tick], **look)  # type: ignore[arg-type]
+        said = "100 mm: measure it. If not, print at 100 %."
+        self.axes.text(LEFT + 104, y, said, fontsize=9, va="baseline")
+
+
+def _letters(width: float, size: float) -> int:
+    """Return how many letters of this size surely fit: words take 0.52 of their height."""
+    return int(width / (0.52 * size * MM_PER_POINT))

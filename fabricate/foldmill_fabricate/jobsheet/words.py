@@ -1,0 +1,195 @@
+"""What the job sheet says, as plain words and rows; nothing here knows where it stands on paper."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from math import dist
+
+from foldmill import Assignment, CreasePattern
+from foldmill.finding import Severity
+from foldmill.tolerances import CLOSED_DEG
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.jobsheet.creases import CreaseGroup
+from foldmill_fabricate.passes import Face, Gate, Pass, Plan, SetUp
+from foldmill_fabricate.sheet import flipped, on_carrier
+
+Row = tuple[str, ...]
+
+SETUP_HEAD: Row = ("", "face up", "process", "SP", "blade", "force", "speed", "repeats", "program")
+HOLE_HEAD: Row = ("hole", "on the front", "after the flip", "after the flip, on the machine")
+CREASE_HEAD: Row = ("", "fold", "angle", "creases", "from the middle")
+
+SAID_BY_WARNINGS = frozenset({"untested-material", "through-cut-marginal"})
+"""Findings that ``warnings`` puts into the operator's words."""
+
+_GROOVES = {
+    "outside": "away from its groove, which opens",
+    "inside": "towards its groove, which closes",
+    "either": "both ways",
+}
+_KINDS = {
+    Assignment.M: "mountain",
+    Assignment.V: "valley",
+    Assignment.U: "unassigned",
+}
+
+
+def summary(plan: Plan) -> str:
+    """Return which pattern on which sheet, and how long the machine moves."""
+    size = plan.sheet
+    return (
+        f"Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm on a mat "
+        f"of {size.carrier_width:g} × {size.carrier_height:g} mm   About "
+        f"{max(1, round(plan.figures.seconds / 60))} min of motion"
+    )
+
+
+def setup_rows(plan: Plan) -> list[tuple[Row, str]]:
+    """Return per set-up the table's row and what to do before it, in order of work."""
+    programs = {n: part.name for part in hpgl.layout(plan) for n in part.setups}
+    return [
+        (_setup_row(plan, work, setup, programs[setup.number]), before(plan, work.face, setup))
+        for work in plan.passes
+        for setup in work.setups
+    ]
+
+
+def _setup_row(plan: Plan, work: Pass, setup: SetUp, program: str) -> Row:
+    process = plan.material.score if setup.process == "score" else plan.material.cut
+    repeats = sorted({operation.repeats for operation in setup.operations})
+    return (
+        str(setup.number),
+        work.face.value.upper(),
+        process.title,
+        str(setup.tool) if setup.tool else "–",
+        f"{setup.exposure:g} mm",
+        f"{setup.force:g} gf",
+        f"{setup.speed / 10:g} cm/s",
+        "/".join(str(each) for each in repeats),
+        program,
+    )
+
+
+def before(plan: Plan, face: Face, setup: SetUp) -> str:
+    """Return what the operator does before a set-up starts; empty where that is nothing."""
+    doing = {
+        Gate.LOAD: f"load the sheet, {face} up, lower left corner at {_corner(plan)}",
+        Gate.TOOL: f"set the blade to stand out {setup.exposure:g} mm, the force to"
+        f" {setup.force:g} gf",
+        Gate.FLIP: f"turn the sheet over {plan.flip.kind} as drawn below, and find the marks",
+    }
+    return "; ".join(doing[gate] for gate in setup.gates)
+
+
+def _corner(plan: Plan) -> str:
+    return f"x {plan.sheet.dx:g}, y {plan.sheet.dy:g} mm of the mat"
+
+
+def hole_rows(plan: Plan) -> list[Row]:
+    """Return per hole its middle on the front, after the flip, and then on the machine, mm."""
+    rows = []
+    for number, hole in enumerate(plan.holes, start=1):
+        seen = flipped([(hole.x, hole.y)], plan.flip)
+        spots = ([hole.x, hole.y], seen[0], on_carrier(seen, plan.sheet)[0])
+        rows.append((str(number), *(f"{x:.2f}, {y:.2f}" for x, y in spots)))
+    return rows
+
+
+def farthest_holes(plan: Plan) -> str:
+    """Return a sentence to check the machine's scale by; empty with less than two holes."""
+    if len(plan.holes) < 2:
+        return ""
+    numbered = enumerate(plan.holes, start=1)
+    (a, one), (b, two) = max(
+        combinations(numbered, 2), key=lambda pair: round(_apart(pair[0][1], pair[1][1]), 6)
+    )
+    return (
+        f"Check the machine's scale before the flip: the middles of holes {a} and {b} are "
+        f"{_apart(one, two):.2f} mm apart."
+    )
+
+
+def _apart(one: object, two: object) -> float:
+    return dist((one.x, one.y), (two.x, two.y))  # type: ignore[attr-defined]
+
+
+def crease_row(group: CreaseGroup) -> Row:
+    """Return one row of the table of fold angles."""
+    unknown = group.assignment is Assignment.U
+    return (
+        group.letter,
+        _KINDS[group.assignment],
+        "unknown" if unknown and not group.angle else f"{group.angle:.1f}°",
+        f"× {len(group.edges)}",
+        f"{group.distance:.0f} mm",
+    )
+
+
+def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
+    """Return what must not be overlooked, most important first."""
+    said = []
+    if not (plan.material.tested and plan.machine.verified):
+        said.append(
+            "Untested: depth, force, speed and repeats are starting values. Cut a coupon of the "
+            "same sheet and bend it before you trust them."
+        )
+    cut, strongest = plan.material.cut, plan.machine.tools.max_force
+    if strongest < cut.force_needed:
+        said.append(
+            f"This machine presses with {strongest:g} gf at most; cutting "
+            f"{plan.material.thickness:g} mm through takes about {cut.force_needed:g} gf, so it "
+            f"may not get through. Then treat the outline as a deep score and snap it, or finish "
+            f"it with a knife by hand along a ruler; punch the holes by hand."
+        )
+    closed = sum(abs(angle) >= 180 - CLOSED_DEG for angle in pattern.fold_angles.tolist())
+    if closed:
+        said.append(
+            f"The {closed} creases that close to 180° are single scores for now, without room for "
+            f"the sheet's thickness: expect them to stand a little open."
+        )
+    return said
+
+
+def findings(plan: Plan) -> list[str]:
+    """Return what planning found beyond the warnings: one sentence per kind, the first of each."""
+    kinds: dict[str, list[str]] = {}
+    for finding in plan.findings:
+        if finding.severity is not Severity.INFO and finding.code not in SAID_BY_WARNINGS:
+            kinds.setdefault(finding.code, []).append(str(finding))
+    return [
+        first + (f" ({len(more)} more of this kind in plan.json.)" if more else "")
+        for first, *more in kinds.values()
+    ]
+
+
+def temperature(plan: Plan) -> str:
+    """Return why both passes belong into one session, with a place for the temperatures."""
+    span = max(plan.sheet.width, plan.sheet.height)
+    drift = plan.material.expansion * 1e-6 * span
+    return (
+        f"Do both passes in one session: the sheet moves by {drift:.2f} mm/°C over {span:g} mm. "
+        f"Note the temperature: front ______ °C, reverse ______ °C."
+    )
+
+
+def folding_steps(plan: Plan, found: list[CreaseGroup]) -> list[str]:
+    """Return the suggested order of folding, step by step."""
+    flex = (
+        f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
+        f"a straight edge: mountains with the front outside, valleys with the reverse outside."
+    )
+    steps = ["Take the part out of its ties and cut them flush.", flex]
+    standing = [group.letter for group in found if not group.is_closed]
+    closing = [group.letter for group in found if group.is_closed]
+    if standing:
+        steps.append(
+            f"Go from the middle outward, each group all the way round to half its angle before "
+            f"the next: {', '.join(standing)}. Then once more in the same order to the full angle."
+        )
+    if closing:
+        steps.append(f"Close the tucks last: {', '.join(closing)}. Press them flat.")
+    steps.append(
+        "The sheet springs back: overfold where there is room, hold each fold for some seconds, "
+        "and hold the finished form (clips, tape) until it stays."
+    )
+    return steps

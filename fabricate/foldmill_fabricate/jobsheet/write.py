@@ -1,0 +1,144 @@
+"""Both pages put together, and turned into a PDF with the same bytes for the same plan."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from foldmill import CreasePattern, Fold
+from foldmill_fabricate.jobsheet import flip_drawing, words
+from foldmill_fabricate.jobsheet.creases import CreaseGroup, groups, middle, midpoints
+from foldmill_fabricate.jobsheet.paper import LEFT, RIGHT, Paper
+from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.pictures import canvas, pattern, sheet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
+HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
+CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
+
+
+def write(plan: Plan, fold: Fold) -> bytes:
+    """Return the job sheet of a plan as PDF, two A4 pages at true scale."""
+    with canvas.own_style():
+        return _to_pdf([_machine_page(plan, fold.pattern), _folding_page(plan, fold.pattern)])
+
+
+def _to_pdf(pages: list[Paper]) -> bytes:
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    out = BytesIO()
+    silent = {"CreationDate": None, "Producer": None, "Creator": "foldmill"}
+    with PdfPages(out, metadata=silent) as pdf:
+        for page in pages:
+            pdf.savefig(page.figure)
+    return out.getvalue()
+
+
+def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
+    page = Paper()
+    _add_title(page, plan)
+    page.heading("Before you start")
+    for warning in words.warnings(plan, creases):
+        page.line(f"•  {warning}", 8.5)
+    page.heading("Set-ups, in order of work")
+    _add_setups(page, plan)
+    _add_flip(page, plan)
+    _add_holes(page, plan)
+    page.y -= 2
+    page.line(words.temperature(plan))
+    page.check_bar(12)
+    return page
+
+
+def _add_title(page: Paper, plan: Plan) -> None:
+    page.line(f"Job sheet: {plan.title}", 16, weight="bold")
+    if not (plan.material.tested and plan.machine.verified):
+        frame = {"facecolor": "#ffe0e0", "edgecolor": "#c00000", "boxstyle": "round,pad=0.35"}
+        look = {"fontsize": 13, "weight": "bold", "color": "#c00000", "ha": "right"}
+        page.axes.text(RIGHT - 2, 283, "untested", bbox=frame, **look)  # type: ignore[arg-type]
+    page.line(words.summary(plan))
+    for what, made in (("Material", plan.material), ("Machine", plan.machine)):
+        page.line(f"{what}: {made.title}. {made.provenance}", 8)
+
+
+def _add_setups(page: Paper, plan: Plan) -> None:
+    page.row(words.SETUP_HEAD, SETUP_STOPS, 8, color="#606060")
+    page.rule()
+    for row, gate in words.setup_rows(plan):
+        page.row(row, SETUP_STOPS, weight="bold")
+        if gate:
+            page.line(f"before it: {gate}", 8, SETUP_STOPS[1], color="#404040")
+        page.y -= 0.8
+
+
+def _add_flip(page: Paper, plan: Plan) -> None:
+    if len(plan.passes) < 2:
+        page.heading("All work is on one face: the sheet is not turned over")
+        return
+    page.heading("The flip")
+    page.line(flip_drawing.instruction(plan))
+    size = 66.0
+    bottom = page.y - size + 2
+    for k, after in enumerate((False, True)):
+        flip_drawing.draw(page.window(LEFT + 12 + 84 * k, bottom, 74, size), plan, after=after)
+    page.y = bottom - 2
+
+
+def _add_holes(page: Paper, plan: Plan) -> None:
+    if not plan.holes:
+        page.heading("No registration holes: lay the sheet's edges against stops in both passes")
+        return
+    diameter = plan.holes[0].diameter
+    page.heading(f"Registration holes, {diameter:g} mm wide; middles in mm from the lower left")
+    page.row(words.HOLE_HEAD, HOLE_STOPS, 8, color="#606060")
+    page.rule()
+    for row in words.hole_rows(plan):
+        page.row(row, HOLE_STOPS)
+    page.line(words.farthest_holes(plan), 8.5)
+
+
+def _folding_page(plan: Plan, creases: CreasePattern) -> Paper:
+    page = Paper()
+    page.line(f"Folding: {plan.title}", 16, weight="bold")
+    found = groups(creases)
+    _draw_pattern(page.window(LEFT, 178, 98, 98), creases, found)
+    _draw_sheet(page, plan)
+    page.y = 168
+    page.heading("Fold angles by group, seen from the front")
+    page.row(words.CREASE_HEAD, CREASE_STOPS, 8, color="#606060")
+    page.rule()
+    for group in found:
+        page.row(words.crease_row(group), CREASE_STOPS)
+    page.heading("Suggested order of folding")
+    for number, step in enumerate(words.folding_steps(plan, found), start=1):
+        page.line(f"{number}.  {step}")
+        page.y -= 0.5
+    if words.findings(plan):
+        page.heading("What planning found")
+    for finding in words.findings(plan):
+        page.line(f"•  {finding}", 8)
+    return page
+
+
+def _draw_sheet(page: Paper, plan: Plan) -> None:
+    axes = page.window(118, 196, 78, 80)
+    sheet.draw(axes, plan, letters=7)
+    axes.set_title("The sheet, seen from the front", fontsize=9)
+
+
+def _draw_pattern(axes: Axes, creases: CreasePattern, found: list[CreaseGroup]) -> None:
+    pattern.draw(axes, creases, legend=False)
+    axes.set_title("Mountains red, valleys blue; letters as in the table", fontsize=9)
+    frame = {"boxstyle": "circle,pad=0.12", "facecolor": "white", "edgecolor": "none"}
+    placed = middle(creases)[None, :]
+    for group in found:
+        spots = midpoints(creases, group.edges)
+        room = np.linalg.norm(spots[:, None] - placed, axis=2).min(axis=1)
+        x, y = best = spots[np.argmax(np.round(room, 6))]
+        placed = np.vstack([placed, best])
+        axes.text(x, y, group.letter, ha="center", va="center", fontsize=7.5, bbox=frame)

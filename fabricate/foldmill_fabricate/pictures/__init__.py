@@ -1,0 +1,19 @@
+"""Pictures for people: the pattern, the folded form, the sheet with both its faces.
+
+Each is a pure function to the bytes of a PNG or SVG, the same bytes for the same input. matplotlib
+is imported inside the functions, without pyplot, so that nobody's global state is touched.
+"""
+
+from foldmill_fabricate.pictures.folded import folded_picture
+from foldmill_fabricate.pictures.pattern import pattern_picture
+from foldmill_fabricate.pictures.pattern_svg import pattern_svg
+from foldmill_fabricate.pictures.sheet import sheet_picture
+from foldmill_fabricate.pictures.show import show_picture
+
+__all__ = [
+    "folded_picture",
+    "pattern_picture",
+    "pattern_svg",
+    "sheet_picture",
+    "show_picture",
+]
