@@ -168,7 +168,7 @@ def temperature(plan: Plan) -> str:
     drift = plan.material.expansion * 1e-6 * span
     return (
         f"Do both passes in one session: the sheet moves by {drift:.2f} mm/°C over {span:g} mm. "
-        f"Note the temperature: front ______ °C, reverse ______ °C."
+        f"Temperature: front ____ °C, reverse ____ °C."
     )
 
 

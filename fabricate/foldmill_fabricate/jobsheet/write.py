@@ -50,7 +50,7 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
     _add_flip(page, plan)
     _add_holes(page, plan)
     page.y -= 2
-    page.line(words.temperature(plan))
+    page.line(words.temperature(plan), 8.5)
     page.check_bar(12)
     return page
 
