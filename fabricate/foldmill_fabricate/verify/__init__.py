@@ -1,0 +1,12 @@
+"""Proof before anything is sent. Shares no code with planning, placing, ordering and writing.
+
+Two proofs: the programs, replayed on a virtual sheet, draw the plan (``programs``); and the plan is
+what pattern, process rule and placement ask for (``rule``). Mirror, placement, rounding and repeats
+are derived here a second time, so that a fault has to be made twice to pass unseen.
+"""
+
+from foldmill_fabricate.verify.folder import verify_folder
+from foldmill_fabricate.verify.report import report
+from foldmill_fabricate.verify.verification import Figures, Verification, verify
+
+__all__ = ["Figures", "Verification", "report", "verify", "verify_folder"]

@@ -1,0 +1,149 @@
+"""The outline is cut but for its declared ties, inner cuts wholly, and nothing else is cut."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import Assignment
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.passes import Role, Tie
+from foldmill_fabricate.verify import tolerances
+from foldmill_fabricate.verify.asked import Asked
+from foldmill_fabricate.verify.cover import (
+    Stretches,
+    difference,
+    pairs,
+    pieces,
+    stretches,
+    uncovered,
+)
+from foldmill_fabricate.verify.planned import Planned, at
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+LEAST_TIES = 3
+"""With fewer the part swings about the last one."""
+
+
+def prove_cuts(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
+    """Compare the cut strokes with outline, inner cuts and ties."""
+    outer = [stroke for stroke in strokes if stroke.role is Role.CUT_OUTER]
+    inner = [stroke for stroke in strokes if stroke.role is Role.CUT_INNER]
+    loops = asked.has(Assignment.B) & ~asked.rim
+    found = _compare(asked, outer, asked.rim, asked.plan.ties)
+    found += _compare(asked, inner, asked.has(Assignment.C) | loops, ())
+    return found + _tie_findings(asked)
+
+
+def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
+    return Finding(code, Severity.ERROR, where, message, remedy)
+
+
+def _compare(
+    asked: Asked, strokes: Sequence[Planned], which: Flags, ties: Sequence[Tie]
+) -> list[Finding]:
+    drawn = pieces([stroke.points for stroke in strokes])
+    edges = asked.lines(which)
+    found = pairs(drawn, edges, tolerances.PLAN_MM)
+    _, along, _, _ = found.along()
+    bridges = _bridges(asked, which, ties)
+    whole = Stretches(edges.line, edges.start, edges.lengths, np.ones(len(edges.line)))
+    uneven = difference(along, difference(whole, bridges))
+    uneven = uneven.take(uneven.lengths > tolerances.UNEVEN_MM)
+    findings = [
+        _uneven_finding(asked, *row, bridges)
+        for row in zip(
+            uneven.line.tolist(),
+            uneven.low.tolist(),
+            uneven.high.tolist(),
+            uneven.count.tolist(),
+            strict=True,
+        )
+    ]
+    stray = uncovered(drawn, found.near())
+    stray = stray.take(stray.lengths > tolerances.UNEVEN_MM)
+    for line, low, high in zip(stray.line.tolist(), stray.low, stray.high, strict=True):
+        ends = at(drawn.at(line, low)), at(drawn.at(line, high))
+        text = f"It cuts from {ends[0]} to {ends[1]}, where the pattern has no such cut."
+        findings.append(_error("no-such-line", str(strokes[line]), text))
+    return findings
+
+
+def _bridges(asked: Asked, which: Flags, ties: Sequence[Tie]) -> Stretches:
+    """Return the stretches of edges that ties leave standing: within half a width of the middle."""
+    items = []
+    edges = np.flatnonzero(which)
+    a, b = asked.ends[edges, 0], asked.ends[edges, 1]
+    course = (b - a) / asked.lengths[edges][:, None]
+    for tie in ties:
+        to_tie = np.array([tie.x, tie.y]) - a
+        place = (to_tie * course).sum(axis=1)
+        beside = to_tie[:, 0] * course[:, 1] - to_tie[:, 1] * course[:, 0]
+        half = np.sqrt(np.maximum((tie.width / 2) ** 2 - beside**2, 0.0))
+        low = np.maximum(place - half, 0.0)
+        high = np.minimum(place + half, asked.lengths[edges])
+        touched = np.flatnonzero(high > low)
+        items += [(int(edges[k]), float(low[k]), float(high[k]), 1.0) for k in touched]
+    return stretches(items)
+
+
+def _uneven_finding(
+    asked: Asked, edge: int, low: float, high: float, times: float, bridges: Stretches
+) -> Finding:
+    course = asked.ends[edge, 1] - asked.ends[edge, 0]
+    ends = [at(asked.ends[edge, 0] + s / asked.lengths[edge] * course) for s in (low, high)]
+    line = f"{high - low:.2f} mm from {ends[0]} to {ends[1]}"
+    if times < 0:
+        text = f"{line} are not cut, and no tie is declared there."
+        return _error("missing-cut", asked.name(edge), text)
+    middle = (low + high) / 2
+    bridged = (bridges.line == edge) & (bridges.low <= middle) & (bridges.high >= middle)
+    if bridged.any():
+        return _error("tie-cut", asked.name(edge), f"The tie declared over {line} is cut through.")
+    return _error("cut-twice", asked.name(edge), f"{line} are cut twice.")
+
+
+def _tie_findings(asked: Asked) -> list[Finding]:
+    ties = asked.plan.ties
+    found = []
+    if not asked.rim.any():
+        return [_error("no-outline", "pattern", "The pattern has no outline to cut.")]
+    if len(ties) < LEAST_TIES:
+        text = f"The outline has {len(ties)} ties; a part needs {LEAST_TIES} to stay in place."
+        found.append(_error("too-few-ties", "outline", text))
+    corners = _corners(asked)
+    for k, tie in enumerate(ties, 1):
+        found += _one_tie(asked, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
+    return found
+
+
+def _one_tie(asked: Asked, tie: Tie, where: str, corners: Floats) -> list[Finding]:
+    cut = asked.plan.material.cut
+    bridge = _bridges(asked, asked.rim, [tie])
+    standing = float(bridge.lengths.sum())
+    if standing < tie.width - tolerances.UNEVEN_MM:
+        text = f"Only {standing:.2f} mm of its {tie.width:g} mm lie on the outline."
+        return [_error("tie-astray", where, text)]
+    found = []
+    if abs(tie.width - cut.tie_width) > tolerances.UNEVEN_MM:
+        text = f"It is {tie.width:g} mm wide; the material asks for {cut.tie_width:g} mm."
+        found.append(_error("tie-width", where, text))
+    gaps = np.hypot(*(corners - (tie.x, tie.y)).T) - tie.width / 2
+    if len(gaps) and gaps.min() < cut.tie_corner - tolerances.UNEVEN_MM:
+        text = f"It is {gaps.min():.2f} mm from a corner; {cut.tie_corner:g} mm are asked for."
+        found.append(Finding("tie-corner", Severity.WARNING, where, text))
+    return found
+
+
+def _corners(asked: Asked) -> Floats:
+    """Return the corners (n, 2) of the outline, mm: where it turns by more than a named angle."""
+    loop = asked.spots[asked.pattern.outline()[0]]
+    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn = np.degrees(np.abs(np.arctan2(cross, (before * after).sum(axis=1))))
+    corners: Floats = loop[turn > tolerances.CORNER_DEG]
+    return corners

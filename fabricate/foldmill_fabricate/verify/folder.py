@@ -1,0 +1,71 @@
+"""Verify a job as it lies in a folder: the pattern, the plan and the programs."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from foldmill import CreasePattern
+from foldmill.design import explain
+from foldmill.errors import UnreadableFile
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.passes import Fit, Plan
+from foldmill_fabricate.verify.verification import Verification, verify
+
+PLAN = "plan.json"
+PATTERN = "pattern.fold"
+
+
+def verify_folder(path: str | Path, fit: Fit | None = None) -> Verification:
+    """Verify ``plan.json``, ``pattern.fold`` and the ``.hpgl`` programs of a folder.
+
+    A missing or edited program is a finding. Raises UnreadableFile where plan or pattern are
+    missing or not what their names say, for then there is nothing to compare with.
+    """
+    folder = Path(path)
+    plan = _plan(folder)
+    data = _bytes(folder, PATTERN)
+    pattern = _pattern(data, folder / PATTERN)
+    programs = {file.name: file.read_bytes() for file in sorted(folder.glob("*.hpgl"))}
+    result = verify(plan, pattern, programs, fit)
+    if hashlib.sha256(data).hexdigest() == plan.pattern_sha256:
+        return result
+    edited = Finding(
+        "edited",
+        Severity.ERROR,
+        PATTERN,
+        "Its SHA-256 is not the one in plan.json: it was changed after planning.",
+        "Plan the changed pattern anew.",
+    )
+    return replace(result, findings=(edited, *result.findings))
+
+
+def _bytes(folder: Path, name: str) -> bytes:
+    if not folder.is_dir():
+        raise UnreadableFile(f"There is no folder {folder}; name the one that plan has written.")
+    try:
+        return (folder / name).read_bytes()
+    except OSError as error:
+        reason = error.strerror or "cannot be read"
+        raise UnreadableFile(f"{folder / name}: {reason}. Plan again into this folder.") from None
+
+
+def _plan(folder: Path) -> Plan:
+    data = _bytes(folder, PLAN)
+    try:
+        return Plan.model_validate_json(data)
+    except ValidationError as error:
+        raise UnreadableFile(f"{folder / PLAN} is no plan: {explain(error)}") from None
+
+
+def _pattern(data: bytes, path: Path) -> CreasePattern:
+    from foldmill.exchange import fold
+
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise UnreadableFile(f"{path} is no text: {error.reason}, byte {error.start}.") from None
+    return fold.read(text, path.name).pattern

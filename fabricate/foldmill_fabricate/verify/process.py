@@ -1,0 +1,136 @@
+"""The order of work, and that each set-up does what the material's preset says."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp
+
+_PROCESS = {
+    Role.HOLE: "cut",
+    Role.WITNESS: "score",
+    Role.SCORE: "score",
+    Role.CUT_INNER: "cut",
+    Role.CUT_OUTER: "cut",
+}
+_FIRST = (Role.HOLE, Role.WITNESS)
+_LAST = (Role.CUT_INNER, Role.CUT_OUTER)
+_ORDER = list(Role)
+
+
+def prove_process(plan: Plan) -> list[Finding]:
+    """Check passes, order of roles, gates, and each set-up's values."""
+    setups = [(side.face, setup) for side in plan.passes for setup in side.setups]
+    found = _pass_findings(plan)
+    numbers = [setup.number for _, setup in setups]
+    if numbers != list(range(1, len(numbers) + 1)):
+        text = f"The set-ups are numbered {numbers}, not 1, 2, 3 … in order of work."
+        found.append(_error("set-ups", "plan", text))
+    found += _gate_findings(plan, setups)
+    for _, setup in setups:
+        found += _value_findings(plan, setup)
+    return found
+
+
+def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
+    return Finding(code, Severity.ERROR, where, message, remedy)
+
+
+def _pass_findings(plan: Plan) -> list[Finding]:
+    faces = [side.face for side in plan.passes]
+    found = []
+    if faces not in ([Face.FRONT], [Face.REVERSE], [Face.FRONT, Face.REVERSE]):
+        text = f"The passes are {', '.join(faces) or 'none'}; it is the front, then the reverse."
+        found.append(_error("passes", "plan", text))
+    for k, side in enumerate(plan.passes):
+        roles = [operation.role for setup in side.setups for operation in setup.operations]
+        where = f"{side.face} pass"
+        for before, after in pairwise(roles):
+            if _ORDER.index(after) < _ORDER.index(before):
+                text = f"{_plural(after)} come after {_plural(before)}; they must come before."
+                found.append(_error("order", where, text))
+        for role in roles:
+            if role in _FIRST and k > 0:
+                text = f"{_plural(role)} belong on the first pass."
+                found.append(_error("order", where, text))
+            if role in _LAST and k < len(plan.passes) - 1:
+                text = f"{_plural(role)} belong on the last pass, so that the sheet holds together."
+                found.append(_error("order", where, text))
+    return found
+
+
+def _plural(role: Role) -> str:
+    return {
+        Role.HOLE: "Holes",
+        Role.WITNESS: "Witness marks",
+        Role.SCORE: "Scores",
+        Role.CUT_INNER: "Inner cuts",
+        Role.CUT_OUTER: "Outline cuts",
+    }[role]
+
+
+def _gate_findings(plan: Plan, setups: list[tuple[Face, SetUp]]) -> list[Finding]:
+    """Check that the operator is asked to load, to turn the sheet, and to change the tool."""
+    found = []
+    by_hand = plan.machine.tools.change == "operator"
+    for k, (face, setup) in enumerate(setups):
+        before = setups[k - 1] if k else None
+        needed = []
+        if before is None:
+            needed.append(Gate.LOAD)
+        elif before[0] is not face:
+            needed.append(Gate.FLIP)
+        if by_hand and (before is None or _tooling(before[1]) != _tooling(setup)):
+            needed.append(Gate.TOOL)
+        found += [
+            _error("missing-gate", f"set-up {setup.number}", f"The gate {gate!s} is missing.")
+            for gate in needed
+            if gate not in setup.gates
+        ]
+        if Gate.FLIP in setup.gates and Gate.FLIP not in needed:
+            text = "The sheet is turned over here, and the face stays the same."
+            found.append(_error("wrong-gate", f"set-up {setup.number}", text))
+    return found
+
+
+def _tooling(setup: SetUp) -> tuple[str, int, float]:
+    return setup.process, setup.tool, setup.exposure
+
+
+def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
+    """Compare tool, exposure, force and speed with the presets of material and machine."""
+    tools = plan.machine.tools
+    process = plan.material.score if setup.process == "score" else plan.material.cut
+    wanted = {
+        "tool": (setup.tool, tools.score if setup.process == "score" else tools.cut),
+        "exposure": (setup.exposure, process.exposure),
+        "force": (setup.force, min(process.force, tools.max_force)),
+        "speed": (setup.speed, process.speed),
+    }
+    where = f"set-up {setup.number} ({setup.name})"
+    found = [
+        _error("set-up-values", where, f"Its {what} is {given:g}, not {right:g}.")
+        for what, (given, right) in wanted.items()
+        if given != right
+    ]
+    for operation in setup.operations:
+        found += _operation_findings(setup, operation, process.repeats, process.overcut, where)
+    return found
+
+
+def _operation_findings(
+    setup: SetUp, operation: Operation, repeats: int, overcut: float, where: str
+) -> list[Finding]:
+    found = []
+    if _PROCESS[operation.role] != setup.process:
+        text = f"{_plural(operation.role)} do not belong in a set-up that {setup.process}s."
+        found.append(_error("wrong-process", where, text))
+    if operation.repeats != repeats:
+        text = f"{_plural(operation.role)} are repeated {operation.repeats} times, not {repeats}."
+        found.append(_error("set-up-values", where, text))
+    closed = any(stroke.closed for stroke in operation.strokes)
+    if closed and operation.overcut != overcut:
+        text = f"The overcut of closed strokes is {operation.overcut:g} mm, not {overcut:g} mm."
+        found.append(_error("set-up-values", where, text))
+    return found

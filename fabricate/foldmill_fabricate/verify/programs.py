@@ -1,0 +1,227 @@
+"""Proof one: the programs, replayed on the virtual sheet, draw the plan. Nothing more or less."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile, Role
+from foldmill_fabricate.verify import tolerances
+from foldmill_fabricate.verify.cover import pairs, pieces, uncovered
+from foldmill_fabricate.verify.drawing import Drawing
+from foldmill_fabricate.verify.interpreter import Trace, interpret
+from foldmill_fabricate.verify.limits import outside
+from foldmill_fabricate.verify.planned import Planned, at, planned, program_files
+from foldmill_fabricate.verify.suspects import find_cause
+from foldmill_fabricate.verify.virtual_sheet import Line, lines, modelled_offset, on_carrier
+
+
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """A program, what it does, and what it draws beside what it should."""
+
+    file: ProgramFile
+    trace: Trace
+    drawing: Drawing
+
+
+@dataclass(frozen=True, eq=False)
+class ProgramProof:
+    """Everything that proof one found."""
+
+    replays: tuple[Replay, ...]
+    findings: tuple[Finding, ...]
+
+
+def prove_programs(plan: Plan, programs: Mapping[str, bytes], fit: Fit | None) -> ProgramProof:
+    """Replay every program of the plan and compare it with the strokes it must draw."""
+    strokes = planned(plan)
+    files = program_files(plan)
+    findings = [*_files_findings(plan, files, programs)]
+    replays = []
+    for file in files:
+        if file.name not in programs:
+            continue
+        data = programs[file.name]
+        findings += _hash_findings(file, data, fit)
+        replay = _replay(plan, file, data, strokes, fit)
+        replays.append(replay)
+        findings += [*replay.trace.findings, *outside(plan, file.name, replay.trace)]
+        findings += _drawing_findings(plan, replay, strokes, fit)
+    return ProgramProof(tuple(replays), tuple(findings))
+
+
+def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
+    return Finding(code, Severity.ERROR, where, message, remedy)
+
+
+def _files_findings(
+    plan: Plan, files: Sequence[ProgramFile], programs: Mapping[str, bytes]
+) -> list[Finding]:
+    found = [
+        _error("missing-program", file.name, "This program of the plan is missing.")
+        for file in files
+        if file.name not in programs
+    ]
+    known = {file.name for file in files}
+    found += [
+        Finding(
+            "foreign-program", Severity.WARNING, name, "The plan knows nothing of this program."
+        )
+        for name in sorted(programs)
+        if name.endswith(".hpgl") and name not in known
+    ]
+    given = [number for file in files for number in file.setups]
+    wanted = [setup.number for side in plan.passes for setup in side.setups]
+    if sorted(given) != sorted(wanted):
+        text = f"The programs hold the set-ups {given}; the plan has {wanted}."
+        found.append(_error("set-ups", "plan", text))
+    elif given != wanted:
+        text = f"The programs are run in the order {given} of set-ups, not {wanted}."
+        found.append(_error("order", "plan", text, "Number the programs in order of work."))
+    faces = {setup.number: side.face for side in plan.passes for setup in side.setups}
+    for file in files:
+        if any(faces.get(number, file.face) is not file.face for number in file.setups):
+            text = f"It is said to work on the {file.face}, its set-ups on the other face."
+            found.append(_error("wrong-face", file.name, text))
+    return found
+
+
+def _hash_findings(file: ProgramFile, data: bytes, fit: Fit | None) -> list[Finding]:
+    """Compare with the recorded SHA-256; a reverse fitted to marks is not the one on record."""
+    if not file.sha256 or (fit is not None and file.face is Face.REVERSE):
+        return []
+    if hashlib.sha256(data).hexdigest() == file.sha256:
+        return []
+    text = "Its SHA-256 is not the one in plan.json: it was changed after planning."
+    return [_error("edited", file.name, text, "Plan again; programs are not edited by hand.")]
+
+
+def _replay(
+    plan: Plan, file: ProgramFile, data: bytes, strokes: Sequence[Planned], fit: Fit | None
+) -> Replay:
+    trace = interpret(data, file.name)
+    own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
+    drawn = lines(trace, plan, file.face, file.name, fit)
+    return Replay(file, trace, Drawing(plan, file.name, drawn, own))
+
+
+def _drawing_findings(
+    plan: Plan, replay: Replay, strokes: Sequence[Planned], fit: Fit | None
+) -> list[Finding]:
+    drawing = replay.drawing
+    if drawing.faulty_share() > tolerances.MISFIT:
+        carrier = [on_carrier(run.points, plan.machine.axes) for run in replay.trace.runs]
+        reach = 2 * drawing.tolerance + modelled_offset(plan.machine)
+        cause = find_cause(plan, replay.file, carrier, strokes, fit, reach)
+        if cause is not None:
+            return [cause.finding(replay.file.name)]
+    elsewhere = _elsewhere(replay, strokes)
+    found = [*elsewhere.values(), *drawing.findings(set(elsewhere)), *_dips(replay)]
+    return found + _tool_findings(plan, drawing) + _order_findings(drawing)
+
+
+def _elsewhere(replay: Replay, strokes: Sequence[Planned]) -> dict[int, Finding]:
+    """Name stray lines, by number, that are strokes of another face or set-up."""
+    drawing = replay.drawing
+    others = [stroke for stroke in strokes if stroke.setup.number not in replay.file.setups]
+    stray = sorted(set(drawing.extra.line.tolist()))
+    if not stray or not others:
+        return {}
+    astray = pieces([drawing.lines[k].points for k in stray])
+    found = pairs(astray, pieces([stroke.points for stroke in others]), drawing.tolerance)
+    still = set(uncovered(astray, found.near()).line.tolist())
+    on_astray, on_others, _, _ = found.along()
+    findings = {}
+    for k, line in enumerate(stray):
+        mine = on_astray.line == k
+        if k in still or not mine.any():
+            continue
+        totals = np.bincount(on_others.line[mine], on_others.lengths[mine])
+        stroke = others[int(totals.argmax())]
+        findings[line] = _stray_finding(replay, drawing.lines[line], stroke)
+    return findings
+
+
+def _stray_finding(replay: Replay, line: Line, stroke: Planned) -> Finding:
+    where = f"{replay.file.name}, byte {line.run.byte}"
+    if stroke.face is replay.file.face:
+        text = f"This program draws {stroke} at {at(stroke.points[0])}."
+        return _error("wrong-set-up", where, text)
+    text = f"{stroke} at {at(stroke.points[0])} is drawn on the {replay.file.face}."
+    return _error("wrong-face", where, f"The {text} It belongs on the {stroke.face}.")
+
+
+def _dips(replay: Replay) -> list[Finding]:
+    """Name places where the tool only goes down and up: it pierces the sheet."""
+    dips = [line for line in replay.drawing.lines if not np.ptp(line.run.points, axis=0).any()]
+    return [
+        _error(
+            "dip",
+            f"{replay.file.name}, byte {line.run.byte}",
+            f"The tool goes down and up again without a motion at {at(line.points[0])}.",
+        )
+        for line in dips
+    ]
+
+
+def _tool_findings(plan: Plan, drawing: Drawing) -> list[Finding]:
+    """Compare tool, speed and force of each line with those of the stroke it goes along."""
+    wrong: dict[tuple[str, int, str], int] = {}
+    for line, k in zip(drawing.lines, drawing.strokes_of_lines.tolist(), strict=True):
+        if k < 0:
+            continue
+        for code, text in _tool_faults(plan, line, drawing.strokes[k]):
+            key = (code, drawing.strokes[k].setup.number, text)
+            wrong[key] = wrong.get(key, 0) + 1
+    return [
+        _error(code, f"{drawing.name}, set-up {number}", f"{text} ({count} strokes).")
+        for (code, number, text), count in wrong.items()
+    ]
+
+
+def _tool_faults(plan: Plan, line: Line, stroke: Planned) -> list[tuple[str, str]]:
+    run, setup, dialect = line.run, stroke.setup, plan.machine.dialect
+    faults = []
+    if (run.tool or 0) != setup.tool:
+        faults.append(("wrong-tool", f"It uses tool {run.tool}, not {setup.tool}"))
+    if dialect.speed and (run.speed is None or abs(run.speed - setup.speed) > _HALF_VS):
+        faults.append(("wrong-speed", f"The speed is {run.speed} mm/s, not {setup.speed:g}"))
+    if dialect.force and (run.force is None or abs(run.force - setup.force) > _HALF_FS):
+        faults.append(("wrong-force", f"The force is {run.force} gf, not {setup.force:g}"))
+    return faults
+
+
+_HALF_VS = 5.0
+"""mm/s. VS counts whole cm/s, so half of one may be lost."""
+_HALF_FS = 0.5
+"""gf. FS counts whole grams."""
+
+
+def _order_findings(drawing: Drawing) -> list[Finding]:
+    """Name the first stroke that is drawn after one that must come later."""
+    owner = drawing.strokes_of_pieces
+    known = np.flatnonzero(owner >= 0)
+    ranks = np.array([stroke.rank for stroke in drawing.strokes], np.intp)
+    sequence = ranks[owner[known]]
+    late = np.flatnonzero(sequence < np.maximum.accumulate(sequence))
+    if not len(late):
+        return _stroke_order(drawing, owner[known].tolist())
+    k = int(late[0])
+    stroke = drawing.strokes[owner[known[k]]]
+    before = drawing.strokes[owner[known[int(np.argmax(sequence[:k]))]]]
+    what = "the outline" if before.role is Role.CUT_OUTER else f"the {before.role} strokes"
+    text = f"The {stroke} at {at(stroke.points[0])} is drawn after {what}, not before."
+    return [_error("order", drawing.name, text, "The outline is cut last, scores come first.")]
+
+
+def _stroke_order(drawing: Drawing, sequence: Sequence[int]) -> list[Finding]:
+    first = list(dict.fromkeys(sequence))
+    if first == sorted(first):
+        return []
+    text = "The strokes are not drawn in the plan's order."
+    return [Finding("stroke-order", Severity.WARNING, drawing.name, text)]

@@ -1,0 +1,25 @@
+"""Proof two: the plan is what pattern, process rule and placement ask for. No more and no less."""
+
+from __future__ import annotations
+
+from foldmill import CreasePattern
+from foldmill.finding import Finding
+from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.verify.asked import Asked
+from foldmill_fabricate.verify.creases import prove_creases
+from foldmill_fabricate.verify.cuts import prove_cuts
+from foldmill_fabricate.verify.planned import planned
+from foldmill_fabricate.verify.process import prove_process
+from foldmill_fabricate.verify.waste import prove_waste
+
+
+def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
+    """Derive again what the plan must hold, and compare; nothing of the planner is used."""
+    asked = Asked(plan, pattern)
+    strokes = planned(plan)
+    return [
+        *prove_process(plan),
+        *prove_creases(asked, strokes),
+        *prove_cuts(asked, strokes),
+        *prove_waste(asked, strokes),
+    ]

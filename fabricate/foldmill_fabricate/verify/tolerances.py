@@ -1,0 +1,44 @@
+"""The tolerances of verification: unit and reason of each. Those of geometry are in core."""
+
+from __future__ import annotations
+
+from typing import Final
+
+BLADE_MM: Final = 0.02
+"""mm. What making up for a blade's offset may leave; added to one plotter step, and only where the
+blade is modelled: a machine that makes up for it itself is told the plan's own points."""
+
+PLAN_MM: Final = 1e-3
+"""mm. A plan's lines lie on the pattern's within this: a 25th of the finest plotter step, and far
+above what writing a number down and reading it again can change."""
+
+UNEVEN_MM: Final = 0.01
+"""mm. A stretch of a planned line shorter than this is neither missing nor doubled."""
+
+SLACK_STEPS: Final = 4.0
+"""Plotter steps. Shorter stretches of a stroke may be passed once more or less often than asked,
+because both ends of every piece are rounded to steps."""
+
+BESIDE_MM: Final = 1.0
+"""mm. A line this near to a lost stroke is that stroke, moved: closer than creases lie together."""
+
+STRAIGHT_DEG: Final = 1e-4
+"""deg. Two creases this near to one straight line are one: above rounding, below any drawing."""
+
+NEARLY_STRAIGHT_DEG: Final = 1.0
+"""deg. Up to here a planner may take two creases for one straight line, or not."""
+
+CORNER_DEG: Final = 5.0
+"""deg. The outline has a corner where it turns by more."""
+
+ROUND_MM: Final = 0.05
+"""mm. How far the facets of a hole may leave its circle: a pin does not feel it."""
+
+EXPLAINED: Final = 0.95
+"""Share of points that one cause (a scale, a missing mirror) must explain to be named for all."""
+
+MISFIT: Final = 0.05
+"""Share of a program that must be missing or astray before a common cause is looked for."""
+
+EVEN_SCALE: Final = 2e-4
+"""Two scales that differ by no more are one: 0.1 mm over a sheet of 500 mm."""

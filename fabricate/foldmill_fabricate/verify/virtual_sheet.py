@@ -1,0 +1,97 @@
+"""The virtual sheet: what the programs draw, carried back from machine steps to the sheet.
+
+The way there, for each point of the sheet (mm, front view): turned over with the sheet when it lies
+face down, shifted by where the blank lies on its carrier, for a fitted reverse turned and shifted
+as the sheet was found to lie, and last multiplied by the steps per mm. Derived here once more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foldmill_fabricate.machines import Axes, Machine
+from foldmill_fabricate.passes import Face, Fit, Flip, Plan
+from foldmill_fabricate.verify.blade import tips
+from foldmill_fabricate.verify.interpreter import Run, Trace
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """What the tip drew between going down and being lifted, as it lies on the sheet."""
+
+    points: Floats
+    """(n, 2) mm, sheet coordinates seen from the front."""
+    face: Face
+    program: str
+    run: Run
+    """What the program said."""
+
+
+def lines(trace: Trace, plan: Plan, face: Face, program: str, fit: Fit | None) -> tuple[Line, ...]:
+    """Return what a program draws on the sheet, in order of work."""
+    carrier = [on_carrier(run.points, plan.machine.axes) for run in trace.runs]
+    offset = modelled_offset(plan.machine)
+    if offset > 0:
+        carrier = tips(carrier, offset)
+    return tuple(
+        Line(on_sheet(points, plan, face, fit), face, program, run)
+        for points, run in zip(carrier, trace.runs, strict=True)
+    )
+
+
+def modelled_offset(machine: Machine) -> float:
+    """Return the distance from blade axis to tip, mm; 0 where the machine makes up for it."""
+    return 0.0 if machine.tools.firmware_offset else machine.tools.blade_offset
+
+
+def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:
+    """Turn machine steps (n, 2) into carrier coordinates, mm."""
+    mm = np.asarray(steps, float) / axes.units_per_mm
+    return mm[:, ::-1] if axes.swap else mm
+
+
+def on_sheet(carrier: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:
+    """Turn carrier coordinates (n, 2) of a pass into sheet coordinates, mm."""
+    seen = np.asarray(carrier, float)
+    reverse = face is Face.REVERSE
+    if reverse and fit is not None:
+        seen = (seen - (fit.dx, fit.dy)) @ _rotation(-fit.angle).T
+    seen = seen - (plan.sheet.dx, plan.sheet.dy)
+    result: Floats = turned_over(seen, plan.flip) if reverse else seen
+    return result
+
+
+def to_carrier(sheet: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:
+    """Turn sheet coordinates (n, 2) into the carrier coordinates of a pass, mm."""
+    seen = np.asarray(sheet, float)
+    reverse = face is Face.REVERSE
+    seen = turned_over(seen, plan.flip) if reverse else seen
+    seen = seen + np.array([plan.sheet.dx, plan.sheet.dy])
+    if reverse and fit is not None:
+        seen = seen @ _rotation(fit.angle).T + np.array([fit.dx, fit.dy])
+    result: Floats = seen
+    return result
+
+
+def turned_over(points: Floats, flip: Flip) -> Floats:
+    """Reflect sheet points (n, 2) in the flip's axis."""
+    sign = np.array([-1.0, 1.0] if flip.kind == "left-right" else [1.0, -1.0])
+    offset = np.where(sign < 0, 2 * flip.axis, 0.0)
+    over: Floats = points * sign + offset
+    return over
+
+
+def _rotation(degrees: float) -> Floats:
+    angle = np.radians(degrees)
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def drawn_length(drawn: Iterable[Line]) -> float:
+    """Return the length of lines with the tool down, repeats included, mm."""
+    return float(sum(np.hypot(*np.diff(line.points, axis=0).T).sum() for line in drawn))
