@@ -129,7 +129,9 @@ def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: floa
         return _place_freely(i, point, meridian[i - 2], d)
     half_chord = _half_chord(i, c, h, s, D, size)
     normal = np.array([-q[1], q[0]])
-    spot: Floats = meridian[i - 2] + d * (c * q + point.branch * half_chord * normal) / D**2
+    # √(c² + half²) is D; said like this the step is as long as in the pattern, however small D is.
+    reach = D * float(np.hypot(c, half_chord))
+    spot: Floats = meridian[i - 2] + d * (c * q + point.branch * half_chord * normal) / reach
     return spot
 
 
@@ -149,13 +151,13 @@ def _half_chord(i: int, c: float, h: float, s: float, D: float, size: float) -> 
     # A difference of squares is only as good as the smaller of its parts.
     if abs(squared) <= SNAP_EPSILONS * np.finfo(float).eps * size * max(min(abs(c), h), 0.0):
         return 0.0
-    if squared < 0:
+    if squared < 0 and s > h:
         raise ImpossibleGeometry(
             f"Point {i} has no place: point {i - 1} is {s:.6g} mm from its plane, and only "
             f"{h:.6g} mm of paper reach there ({s - h:.3g} mm too few). Bring point {i - 1} nearer "
             f"to the axis, or move it outwards in the pattern."
         )
-    return float(np.sqrt(squared))
+    return float(np.sqrt(max(squared, 0.0)))
 
 
 def _unfold(i: int, flat: Floats, meridian: Floats, theta: float) -> Floats:
