@@ -5,14 +5,14 @@ They share the entry-point group ``foldmill`` with the families.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from foldmill import Fold
 from foldmill.hooks import hookspec
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.passes import Face, Plan
 
 FORMATS = "foldmill_formats"
 MACHINES = "foldmill_machines"
@@ -26,6 +26,9 @@ class Format:
     slug: str
     title: str
     write: Callable[[Plan, Fold], Mapping[str, bytes]]
+    layout: Callable[[Plan], Sequence[tuple[str, Face, tuple[int, ...]]]] | None = None
+    """Which of its files drive a machine: name, face and numbers of the set-ups, in order of work;
+    None for drawings."""
 
 
 @hookspec

@@ -29,7 +29,7 @@ def as_marks(points: np.ndarray) -> Marks:
 def test_a_shifted_and_turned_sheet_is_found_again_in_any_order_of_marks(
     angle: float, dx: float, dy: float, shuffle: list[int]
 ) -> None:
-    seen = turned(expected(), angle) + (dx, dy)
+    seen = turned(expected(), angle) + np.array([dx, dy])
     found = fit_marks(stool_plan(), as_marks(seen[shuffle]))
     assert found.residual < 1e-9
     again = seen_by_machine(
@@ -42,7 +42,7 @@ def test_a_shifted_and_turned_sheet_is_found_again_in_any_order_of_marks(
 def test_a_sheet_that_was_turned_the_wrong_way_is_refused() -> None:
     plan = stool_plan()
     wrong = plan.flip.model_copy(update={"kind": "end-over-end"})
-    seen = flipped([(h.x, h.y) for h in plan.holes], wrong) + (50.0, 50.0)
+    seen = flipped([(h.x, h.y) for h in plan.holes], wrong) + np.array([50.0, 50.0])
     with pytest.raises(CannotSend):
         fit_marks(plan, as_marks(seen))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import permutations, product
+from itertools import pairwise, permutations, product
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_trails_go_over_every_edge_exactly_once(seed: int, count: int) -> None:
     walked = [
         tuple(sorted(side))
         for trail in trails.straightest(points, edges)
-        for side in zip(trail, trail[1:], strict=False)
+        for side in pairwise(trail)
     ]
     assert sorted(walked) == sorted(tuple(sorted(edge)) for edge in edges.tolist())
 

@@ -1,0 +1,45 @@
+"""The application: its commands, and how errors become one sentence and an exit code.
+
+Exit codes: 0 done, 1 findings of severity error, 2 wrong use or input. Heavy imports stay inside
+the commands, so that ``foldmill --help`` is quick.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from foldmill.errors import FoldmillError
+from foldmill_fabricate.cli import catalogue, designing, making, running
+
+app = typer.Typer(
+    name="foldmill",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="From an origami design to a sheet that a cutting plotter scores on both faces. "
+    "Lengths in mm, angles in degrees.",
+)
+catalogue.add_to(app)
+designing.add_to(app)
+making.add_to(app)
+running.add_to(app)
+
+
+def main() -> None:
+    """Run the command line; expected failures end as one sentence on standard error."""
+    try:
+        app()
+    except FoldmillError as error:
+        _stop(str(error))
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError, PermissionError) as error:
+        _stop(f"{error.filename}: {(error.strerror or 'cannot be read').lower()}.")
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader of our output has gone; that is no fault
+
+
+def _stop(sentence: str) -> None:
+    typer.echo(f"foldmill: {sentence}", err=True)
+    sys.exit(2)

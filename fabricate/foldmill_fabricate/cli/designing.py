@@ -1,0 +1,156 @@
+"""From parameters to a fold, and looking at it: design, show, check."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from foldmill import Design, Fold, FoldmillError
+from foldmill_fabricate.cli.output import (
+    AsJson,
+    exit_code,
+    figure_lines,
+    finding_data,
+    finding_lines,
+    say,
+    table,
+)
+
+FoldFile = Annotated[Path, typer.Argument(help="A crease pattern, FILE.fold.")]
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add these commands to the application."""
+    app.command(
+        context_settings={
+            "allow_extra_args": True,
+            "ignore_unknown_options": True,
+            "help_option_names": [],
+        }
+    )(design)
+    app.command()(show)
+    app.command()(check)
+
+
+def design(
+    context: typer.Context,
+    family: Annotated[str | None, typer.Argument(help="A slug of `foldmill families`.")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="FILE.fold .svg .png .glb .stl or .obj; by suffix."),
+    ] = None,
+    preset: Annotated[str | None, typer.Option(help="Start from a preset.")] = None,
+    params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
+    help_wanted: Annotated[
+        bool, typer.Option("--help", help="Show a family's parameters.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Make a fold: foldmill design FAMILY [--preset P] [--PARAM V]… -o FILE.
+
+    Parameters go by their dotted names, such as --points.3.a 172.5; foldmill design FAMILY --help
+    lists them with units.
+    """
+    from foldmill import installed
+    from foldmill_fabricate.cli.parameters import gather
+
+    if family is None:
+        typer.echo(context.get_help())
+        raise typer.Exit(0 if help_wanted else 2)
+    offered = installed().design(family)
+    if help_wanted:
+        typer.echo(_describe(offered, preset))
+        return
+    fold = offered.run(gather(offered, preset, params, context.args))
+    if output is not None:
+        save(fold, output)
+    say(as_json, _summary(fold), figure_lines(_summary(fold)))
+
+
+def show(
+    file: FoldFile,
+    output: Annotated[Path, typer.Option("-o", "--output", help="FILE.png")],
+) -> None:
+    """Draw a pattern and its folded form side by side."""
+    from foldmill_fabricate.files import write_whole
+    from foldmill_fabricate.pictures import show_picture
+
+    if output.suffix != ".png":
+        raise FoldmillError(f"{output}: a picture is written as .png.")
+    write_whole(output, show_picture(load(file)))
+    typer.echo(f"{output}")
+
+
+def check(file: FoldFile, as_json: AsJson = False) -> None:
+    """Check that a pattern folds: developable, planar, isometric, free of penetration."""
+    from foldmill.check import check as check_fold
+
+    report = check_fold(load(file))
+    text = [figure_lines(report.figures), finding_lines(report.findings) or "no findings"]
+    data = {"figures": dict(report.figures), "findings": finding_data(report.findings)}
+    say(as_json, data, "\n".join(text))
+    exit_code(report.findings)
+
+
+def load(file: Path) -> Fold:
+    """Read a .fold file; raises UnreadableFile."""
+    from foldmill.exchange import fold as fold_file
+
+    text = file.read_bytes().decode("utf-8", errors="replace")
+    return fold_file.read(text, str(file))
+
+
+def save(fold: Fold, file: Path) -> None:
+    """Write a fold as the suffix says."""
+    from foldmill_fabricate.files import write_whole
+
+    write_whole(file, _bytes(fold, file))
+
+
+def _bytes(fold: Fold, file: Path) -> bytes:
+    from foldmill.exchange import fold as fold_file
+    from foldmill.exchange import mesh
+    from foldmill_fabricate import pictures
+
+    suffix = file.suffix.lower()
+    if suffix == ".fold":
+        return fold_file.write(fold).encode()
+    if suffix == ".svg":
+        return pictures.pattern_svg(fold)
+    if suffix == ".png":
+        return pictures.pattern_picture(fold)
+    if suffix in {".glb", ".stl", ".obj"}:
+        return mesh.write_mesh(fold, suffix)
+    raise FoldmillError(f"{file}: write .fold .svg .png .glb .stl or .obj, not {suffix or 'that'}.")
+
+
+def _describe(design: Design, preset: str | None) -> str:  # type: ignore[type-arg]
+    from foldmill_fabricate.cli.parameters import rows
+
+    values = design.preset(preset) if preset else design.params()
+    listed = list(rows(design.params, values))
+    head = f"{design.slug}: {design.title}\npresets: {', '.join(design.presets) or 'none'}\n"
+    lines = [(f"--{name}", value, unit, about) for name, value, unit, about in listed]
+    return head + table([("PARAMETER", "VALUE", "UNIT", ""), *lines])
+
+
+def _summary(fold: Fold) -> dict[str, object]:
+    import numpy as np
+
+    from foldmill import Assignment
+
+    pattern = fold.pattern
+    width, height = np.ptp(pattern.vertices, axis=0)
+    found: dict[str, object] = {
+        "vertices": len(pattern.vertices),
+        "faces": len(pattern.faces),
+        "mountains": pattern.count(Assignment.M),
+        "valleys": pattern.count(Assignment.V),
+        "flats": pattern.count(Assignment.F),
+        "pattern_mm": f"{width:.1f} × {height:.1f}",
+    }
+    if fold.folded is not None:
+        found["folded_mm"] = " × ".join(f"{s:.1f}" for s in np.ptp(fold.folded.vertices, axis=0))
+    return found

@@ -1,0 +1,153 @@
+"""From a fold to a job folder, and the proof that it is right: plan, verify."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from foldmill import FoldmillError
+from foldmill_fabricate.cli.designing import FoldFile, load
+from foldmill_fabricate.cli.output import (
+    AsJson,
+    exit_code,
+    figure_lines,
+    finding_data,
+    finding_lines,
+    say,
+    table,
+)
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.machines import Machine
+    from foldmill_fabricate.materials import Material
+    from foldmill_fabricate.passes import Plan
+
+
+class FlipChoice(StrEnum):
+    """How the operator turns the sheet over."""
+
+    LEFT_RIGHT = "left-right"
+    END_OVER_END = "end-over-end"
+
+
+class UnassignedChoice(StrEnum):
+    """Where creases without mountain or valley are scored."""
+
+    FRONT = "front"
+    REVERSE = "reverse"
+    SKIP = "skip"
+
+
+Folder = Annotated[Path, typer.Argument(help="A job folder, as `foldmill plan` writes it.")]
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add these commands to the application."""
+    app.command()(plan)
+    app.command()(verify)
+
+
+def plan(
+    file: FoldFile,
+    output: Annotated[Path, typer.Option("-o", "--output", help="The job folder to write.")],
+    material: Annotated[str, typer.Option(help="A slug of `foldmill materials`.")] = "pp-0.75",
+    machine: Annotated[
+        str, typer.Option(help="A slug of `foldmill machines`.")
+    ] = "generic-hpgl-600",
+    blank: Annotated[
+        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the material's stock size.")
+    ] = None,
+    carrier: Annotated[
+        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the machine's mat.")
+    ] = None,
+    flip: Annotated[FlipChoice, typer.Option(help="How the sheet is turned over.")] = (
+        FlipChoice.LEFT_RIGHT
+    ),
+    unassigned: Annotated[
+        UnassignedChoice | None, typer.Option(help="Where unassigned creases are scored.")
+    ] = None,
+    to: Annotated[str, typer.Option(help="Formats, separated by commas.")] = "svg,dxf,hpgl",
+    as_json: AsJson = False,
+) -> None:
+    """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
+    from foldmill_fabricate import folder
+    from foldmill_fabricate.plan import make
+
+    fold = load(file)
+    chosen_material, chosen_machine = presets(material, machine)
+    made = make(
+        fold,
+        chosen_material,
+        chosen_machine,
+        blank=None if blank is None else size(blank, "--blank"),
+        carrier=None if carrier is None else size(carrier, "--carrier"),
+        flip=flip.value,
+        unassigned=None if unassigned is None else unassigned.value,
+    )
+    written = folder.write(fold, made, output, [name.strip() for name in to.split(",") if name])
+    say(as_json, written.model_dump(mode="json"), describe(written))
+    exit_code(written.findings)
+
+
+def verify(path: Folder, as_json: AsJson = False) -> None:
+    """Replay a job folder on a virtual sheet and derive its plan again."""
+    from foldmill_fabricate.verify import report, verify_folder
+
+    found = verify_folder(path)
+    data = {
+        "ok": found.ok,
+        "figures": asdict(found.figures),
+        "findings": finding_data(found.findings),
+    }
+    say(as_json, data, report(found))
+    exit_code(found.findings)
+
+
+def presets(material: str, machine: str) -> tuple[Material, Machine]:
+    """Return material and machine by slug; raises UnknownName."""
+    from foldmill import installed
+
+    registry = installed()
+    return (
+        registry.get("foldmill_materials", "material", material),
+        registry.get("foldmill_machines", "machine", machine),
+    )
+
+
+def size(text: str, option: str) -> tuple[float, float]:
+    """Read WIDTHxHEIGHT in mm."""
+    width, _, height = text.lower().replace("×", "x").partition("x")
+    try:
+        read = float(width), float(height)
+    except ValueError:
+        raise FoldmillError(
+            f"{option}: write WIDTHxHEIGHT in mm, as 500x500; not {text!r}."
+        ) from None
+    if not (0 < read[0] < 1e5 and 0 < read[1] < 1e5):
+        raise FoldmillError(f"{option}: both sides must be positive and below 100 m, not {text!r}.")
+    return read
+
+
+def describe(plan: Plan) -> str:
+    """Return a short account of a plan: set-ups, figures, findings."""
+    rows = [("SET-UP", "FACE", "BEFORE IT", "STROKES", "REPEATS")]
+    for work in plan.passes:
+        for setup in work.setups:
+            strokes = sum(len(operation.strokes) for operation in setup.operations)
+            repeats = "/".join(str(r) for r in sorted({op.repeats for op in setup.operations}))
+            gates = ", ".join(setup.gates) or "-"
+            rows.append((f"{setup.number} {setup.name}", work.face, gates, str(strokes), repeats))
+    figures = plan.figures
+    bound = figures.travel_bound / 1000
+    facts = {
+        "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
+        "turned by": f"{plan.placement.angle:g}°",
+        "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
+        "travel": f"{figures.travel / 1000:.2f} m, no order goes below {bound:.2f} m",
+        "time": f"{figures.seconds / 60:.1f} min without the operator's",
+    }
+    return "\n".join([table(rows), figure_lines(facts), finding_lines(plan.findings)])

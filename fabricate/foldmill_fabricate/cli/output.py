@@ -1,0 +1,59 @@
+"""What a command says: text for people, JSON for machines, an exit code for both."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from typing import Annotated, Any
+
+import typer
+
+from foldmill.finding import Finding, has_errors
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
+
+
+def say(as_json: bool, data: Any, text: str) -> None:
+    """Print the data as JSON, or the text."""
+    typer.echo(json.dumps(data, indent=2, ensure_ascii=False, default=str) if as_json else text)
+
+
+def finding_lines(findings: Iterable[Finding]) -> str:
+    """Return one line per finding, the worst first; the same finding in many places once."""
+    rank = {"error": 0, "warning": 1, "info": 2}
+    ordered = sorted(findings, key=lambda finding: rank[finding.severity])
+    groups: dict[tuple[str, str], list[Finding]] = {}
+    for finding in ordered:
+        groups.setdefault((finding.severity, finding.code), []).append(finding)
+    lines = []
+    for (severity, _), found in groups.items():
+        more = f" (and {len(found) - 1} more like it)" if len(found) > 1 else ""
+        lines.append(f"{severity:8} {found[0]}{more}")
+    return "\n".join(lines)
+
+
+def finding_data(findings: Iterable[Finding]) -> list[dict[str, Any]]:
+    """Return findings as plain data."""
+    return [asdict(finding) for finding in findings]
+
+
+def table(rows: Iterable[tuple[str, ...]]) -> str:
+    """Return rows in aligned columns."""
+    listed = list(rows)
+    widths = [max(len(row[k]) for row in listed) for k in range(len(listed[0]))] if listed else []
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in listed
+    )
+
+
+def figure_lines(figures: Mapping[str, object]) -> str:
+    """Return one line per figure."""
+    return table([(name.replace("_", " "), f"{value}") for name, value in figures.items()])
+
+
+def exit_code(findings: Iterable[Finding]) -> None:
+    """Leave with 1 where there are errors among the findings."""
+    if has_errors(list(findings)):
+        raise typer.Exit(1)

@@ -1,0 +1,208 @@
+"""Driving a plotter, real or simulated: send, simulate, demo."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from foldmill import FoldmillError
+from foldmill_fabricate.cli.making import Folder
+from foldmill_fabricate.cli.output import AsJson, say
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.passes import Gate, Plan, ProgramFile, SetUp
+    from foldmill_fabricate.plotter.sender import Progress
+    from foldmill_fabricate.sending import Operator
+
+
+class PassChoice(StrEnum):
+    """Which face is worked on."""
+
+    FRONT = "front"
+    REVERSE = "reverse"
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add these commands to the application."""
+    app.command()(send)
+    app.command()(simulate)
+    app.command()(demo)
+
+
+def send(
+    path: Folder,
+    port: Annotated[
+        str, typer.Option(help="/dev/ttyUSB0, COM3, socket://host:port, or sim://MACHINE.")
+    ],
+    only: Annotated[PassChoice | None, typer.Option("--pass", help="One face only.")] = None,
+    marks: Annotated[
+        str,
+        typer.Option(help="Where holes are seen after the flip: x1,y1;x2,y2;… in mm on the mat."),
+    ] = "",
+    yes: Annotated[
+        bool, typer.Option("--yes", help="Answer every prompt; on simulators only.")
+    ] = False,
+    draw: Annotated[
+        Path | None, typer.Option(help="With sim://: a folder for pictures of what was cut.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Verify a job folder again and send it, prompting before each set-up.
+
+    A software stop (Ctrl-C) is no emergency stop: keep a hand near the machine's own.
+    """
+    from foldmill_fabricate.passes import Face
+    from foldmill_fabricate.plotter.sender import Status
+    from foldmill_fabricate.sending import open_job, send_job
+
+    job = open_job(path, read_marks(marks))
+    faces = [Face(only.value)] if only else list(Face)
+    if job.fit and not as_json:
+        typer.echo(f"The reverse is fitted to the marks: {job.fit}")
+    done = []
+    bar = None if as_json else ProgressLine()
+    for sent in send_job(job, port, _operator(port, yes), faces, *([bar.tell] if bar else [])):
+        done.append(sent)
+        if bar:
+            bar.end(f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}".rstrip())
+    if draw is not None:
+        _draw(port, draw)
+    if as_json:
+        say(True, [{"program": s.program.name, "delivery": vars(s.delivery)} for s in done], "")
+    if any(sent.delivery.status is Status.FAULT for sent in done):
+        raise typer.Exit(1)
+
+
+def simulate(
+    machine: Annotated[
+        str, typer.Option(help="A slug of `foldmill machines`.")
+    ] = "generic-hpgl-600",
+    pty: Annotated[
+        Path | None, typer.Option(help="Offer a serial port, with this symbolic link to it.")
+    ] = None,
+    tcp: Annotated[int | None, typer.Option(help="Offer a TCP port of this number.")] = None,
+    draw: Annotated[Path | None, typer.Option(help="A folder for front and reverse.")] = None,
+    speed_up: Annotated[float, typer.Option(help="How many times faster than the machine.")] = 1.0,
+    buffer: Annotated[int | None, typer.Option(help="Bytes of its buffer.")] = None,
+    handshake: Annotated[str | None, typer.Option(help="none, xon-xoff or esc-b.")] = None,
+) -> None:
+    """Be a plotter behind a serial or TCP port, and draw what is cut on each face."""
+    from foldmill_fabricate.plotter.simulator import devices, run, servers
+
+    if (pty is None) == (tcp is None):
+        raise FoldmillError("Say where the simulator is found: --pty LINK or --tcp PORT.")
+    if speed_up <= 0:
+        raise FoldmillError(f"--speed-up must be above 0, not {speed_up:g}.")
+    options = {"machine": machine, "clock": "real", "speed_up": str(speed_up)}
+    options |= {"buffer": str(buffer)} if buffer is not None else {}
+    options |= {"handshake": handshake} if handshake is not None else {}
+    simulator = devices.made(machine, options)
+    server = (
+        servers.serve_pty(simulator, pty) if tcp is None else servers.serve_tcp(simulator, port=tcp)
+    )
+    run.run(simulator, server, sys.stdin, typer.echo, draw)
+
+
+def demo(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="The folder to make it in.")
+    ] = Path("out/stool"),
+) -> None:
+    """Make the stool end to end: design, check, plan, verify, send to the simulated plotter."""
+    from foldmill_fabricate.cli.demo import make_stool
+
+    make_stool(output, typer.echo)
+
+
+class Person:
+    """The operator at a terminal: told what to do, asked to press Enter."""
+
+    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:
+        """Print what the gate asks for, and wait."""
+        typer.echo(instruction(gate, setup, plan))
+        try:
+            answer = typer.prompt("Enter to go on, q to stop", default="", show_default=False)
+        except typer.Abort:
+            return False
+        return not str(answer).strip().lower().startswith("q")
+
+
+def instruction(gate: Gate, setup: SetUp, plan: Plan) -> str:
+    """Return in words what the operator has to do."""
+    from foldmill_fabricate.passes import Gate
+
+    if gate is Gate.LOAD:
+        return (
+            f"Load a {plan.sheet.width:g} × {plan.sheet.height:g} mm sheet of "
+            f"{plan.material.title} on the mat, its lower left corner at "
+            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the front (outside) up."
+        )
+    if gate is Gate.FLIP:
+        side = "bottom" if plan.flip.kind == "left-right" else "left"
+        return (
+            f"Turn the sheet over {plan.flip.kind}: the {side} edge stays where it is. The F in "
+            f"the waste must now be on the underside."
+        )
+    return (
+        f"Set the tool for {setup.name}: exposure {setup.exposure:g} mm, force {setup.force:g} gf, "
+        f"speed {setup.speed / 10:g} cm/s."
+    )
+
+
+def read_marks(text: str) -> list[tuple[float, float]]:
+    """Read x1,y1;x2,y2;… in mm."""
+    try:
+        pairs = [mark.split(",") for mark in text.split(";") if mark.strip()]
+        return [(float(x), float(y)) for x, y in pairs]
+    except ValueError:
+        raise FoldmillError(f"--marks: write x1,y1;x2,y2;… in mm, not {text!r}.") from None
+
+
+class ProgressLine:
+    """How far a program is: a bar on a terminal, one line per program elsewhere."""
+
+    def __init__(self) -> None:
+        self._live = sys.stderr.isatty()
+        self._shown = -1
+
+    def tell(self, part: ProgramFile, progress: Progress) -> None:
+        """Redraw the bar where a person can see it."""
+        share = 40 * progress.bytes // max(1, progress.of_bytes)
+        if self._live and share != self._shown:
+            typer.echo(f"\r{part.name:28} [{'#' * share:40}]", nl=False, err=True)
+            self._shown = share
+
+    def end(self, line: str) -> None:
+        """Leave the line for good."""
+        if self._live:
+            typer.echo("\r\033[K", nl=False, err=True)
+        self._shown = -1
+        typer.echo(line)
+
+
+def _operator(url: str, yes: bool) -> Operator:
+    from foldmill_fabricate.sending import SimulatedOperator
+
+    if not yes:
+        return Person()
+    if not url.startswith("sim://"):
+        raise FoldmillError(
+            "--yes answers prompts on sim:// only: on a machine somebody has to load, change the "
+            "tool and turn the sheet."
+        )
+    return SimulatedOperator(url)
+
+
+def _draw(url: str, folder: Path) -> None:
+    from foldmill_fabricate.plotter.simulator import devices
+    from foldmill_fabricate.plotter.simulator.draw import draw
+
+    if not url.startswith("sim://"):
+        raise FoldmillError("--draw shows what a sim:// plotter cut; a real one shows it itself.")
+    simulator = devices.behind(url)
+    for path in draw(simulator.sheet, simulator.machine, folder):
+        typer.echo(f"drawn: {path}")

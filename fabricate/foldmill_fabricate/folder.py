@@ -1,0 +1,54 @@
+"""The job folder: pattern, plan, programs, drawings and job sheet, written together.
+
+``pattern.fold`` is what the plan was made from and ``plan.json`` holds the SHA-256 of it and of
+every program; it is written last, so that a folder with a plan is complete.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from foldmill import Fold, installed
+from foldmill.exchange import fold as fold_file
+from foldmill_fabricate import jobsheet
+from foldmill_fabricate.files import write_all
+from foldmill_fabricate.hooks import FORMATS
+from foldmill_fabricate.passes import Plan, ProgramFile
+
+PLAN = "plan.json"
+PATTERN = "pattern.fold"
+JOB_SHEET = "job-sheet.pdf"
+
+
+def write(fold: Fold, plan: Plan, folder: Path, formats: Sequence[str]) -> Plan:
+    """Write everything one job needs into a folder; return the plan with its programs named.
+
+    Raises UnknownName for a format nobody offers. Programs of an earlier plan in the same folder
+    are removed: a stale one must not reach a machine.
+    """
+    contents: dict[str, bytes] = {PATTERN: fold_file.write(fold).encode()}
+    programs: list[ProgramFile] = []
+    for slug in formats:
+        offered = installed().get(FORMATS, "format", slug)
+        files = offered.write(plan, fold)
+        contents.update(files)
+        for name, face, setups in offered.layout(plan) if offered.layout else ():
+            digest = hashlib.sha256(files[name]).hexdigest()
+            programs.append(ProgramFile(name=name, face=face, setups=setups, sha256=digest))
+    complete = plan.model_copy(update={"programs": tuple(programs)})
+    contents[JOB_SHEET] = jobsheet.write(complete, fold)
+    contents[PLAN] = (complete.model_dump_json(indent=1) + "\n").encode()
+    write_all(folder, contents, stale=_programs_before(folder))
+    return complete
+
+
+def _programs_before(folder: Path) -> list[str]:
+    try:
+        before = Plan.model_validate_json((folder / PLAN).read_bytes())
+    except (OSError, ValidationError):
+        return []
+    return [program.name for program in before.programs if "/" not in program.name]

@@ -1,0 +1,126 @@
+"""Send a job folder to a plotter: prove it again, ask the operator, stream program by program.
+
+Nothing is sent that was not verified in this very call, so an edited file never reaches a machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+from foldmill.exchange import fold as fold_file
+from foldmill.finding import Severity
+from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.folder import PATTERN, PLAN
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.marks import MarkFit, fit_marks
+from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
+from foldmill_fabricate.plotter import link, sender
+from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
+from foldmill_fabricate.plotter.simulator import devices
+from foldmill_fabricate.verify import Verification, verify, verify_folder
+
+
+class Operator(Protocol):
+    """Whoever stands at the machine."""
+
+    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:
+        """Do what the gate asks for; False ends the job before the set-up starts."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A verified job folder, its reverse fitted where marks were measured."""
+
+    plan: Plan
+    programs: Mapping[str, bytes]
+    proof: Verification
+    fit: MarkFit | None
+
+
+@dataclass(frozen=True)
+class Sent:
+    """One program, and how its delivery ended."""
+
+    program: ProgramFile
+    delivery: Delivery
+
+
+class SimulatedOperator:
+    """Hands for a simulated plotter in this process: lays and turns its sheet, agrees to all."""
+
+    def __init__(self, url: str) -> None:
+        self._simulator = devices.behind(url)
+
+    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:  # noqa: ARG002
+        """Do it at once."""
+        if gate is Gate.LOAD:
+            self._simulator.new_sheet()
+        elif gate is Gate.FLIP:
+            self._simulator.flip()
+        return True
+
+
+def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
+    """Read a job folder and prove it; raises CannotSend where it must not be sent.
+
+    marks : where registration holes are seen after the flip, carrier coordinates in mm; the reverse
+    programs are written anew to fit, and proved again.
+    """
+    proof = verify_folder(path)
+    _refuse(proof, path)
+    plan = Plan.model_validate_json((path / PLAN).read_bytes())
+    if not plan.programs:
+        raise CannotSend(f"{path} holds drawings only; plan it again with --to hpgl.")
+    programs = {part.name: (path / part.name).read_bytes() for part in plan.programs}
+    if not marks:
+        return Job(plan, programs, proof, None)
+    fit = fit_marks(plan, marks)
+    programs |= {
+        part.name: hpgl.program(plan, part.setups, fit.fit)
+        for part in plan.programs
+        if part.face is Face.REVERSE
+    }
+    text = (path / PATTERN).read_text(encoding="utf-8")
+    proof = verify(plan, fold_file.read(text, PATTERN).pattern, programs, fit.fit)
+    _refuse(proof, path)
+    return Job(plan, programs, proof, fit)
+
+
+def _refuse(proof: Verification, path: Path) -> None:
+    errors = [finding for finding in proof.findings if finding.severity is Severity.ERROR]
+    if errors:
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        raise CannotSend(f"{path} is not sent, for it does not verify: {errors[0]}{more}")
+
+
+def send_job(
+    job: Job,
+    url: str,
+    operator: Operator,
+    faces: Sequence[Face] = (Face.FRONT, Face.REVERSE),
+    tell: Callable[[ProgramFile, Progress], None] = lambda _part, _progress: None,
+) -> Iterator[Sent]:
+    """Send the programs of these faces in order of work, yielding after each.
+
+    url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction. Raises
+    CannotSend where the operator says no, PlotterError where the line fails. It ends after a
+    program that the machine reports a fault for: what comes next would rest on a spoiled sheet.
+    """
+    setups = {setup.number: setup for work in job.plan.passes for setup in work.setups}
+    for part in job.plan.programs:
+        if part.face not in faces:
+            continue
+        first = setups[part.setups[0]]
+        if not all(operator.ready(gate, first, job.plan) for gate in first.gates):
+            raise CannotSend(f"Stopped before {part.name}, as the operator said.")
+        with link.open_port(url, job.plan.machine) as port:
+            told = partial(tell, part)
+            program = job.programs[part.name]
+            delivery = sender.send(program, port, job.plan.machine, progress=told)
+        yield Sent(part, delivery)
+        if delivery.status is Status.FAULT:
+            return
