@@ -1,0 +1,35 @@
+"""What goes wrong between a program and a plotter, in sentences for the person beside it.
+
+::
+
+    FoldmillError
+    ├── PlotterError (OSError)           the port or the machine did not do its part
+    │   ├── PortUnavailable              no such port, busy, not permitted, no such scheme
+    │   ├── NoAnswer (TimeoutError)      silence where an answer was due
+    │   └── Stopped                      a person stopped it
+    └── ProgramRefused (InvalidInput)    bytes that must not reach a machine
+"""
+
+from __future__ import annotations
+
+from foldmill.errors import FoldmillError, InvalidInput
+
+
+class PlotterError(FoldmillError, OSError):
+    """The port or the machine did not do its part."""
+
+
+class PortUnavailable(PlotterError):
+    """A port that cannot be opened."""
+
+
+class NoAnswer(PlotterError, TimeoutError):
+    """A machine that was silent where an answer was due."""
+
+
+class Stopped(PlotterError):
+    """A delivery that a person stopped."""
+
+
+class ProgramRefused(InvalidInput):
+    """Bytes that must not reach a machine."""

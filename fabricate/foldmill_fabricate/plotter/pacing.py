@@ -1,0 +1,258 @@
+"""How fast a machine is fed: by what it says of its buffer, or by how long its motions take.
+
+In flight, that is sent and not known to be executed, is at most the buffer less its reserve, and at
+most three seconds of motion or one stroke, whichever is longer: so that stopping means something.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections import deque
+from itertools import accumulate
+from math import ceil
+from typing import Protocol
+
+from foldmill_fabricate.plotter.errors import NoAnswer
+from foldmill_fabricate.plotter.program import Job
+from foldmill_fabricate.plotter.session import PATIENCE, Session, reserve
+
+IN_FLIGHT = 3.0
+"""s of motion."""
+SLACK = 3.0
+"""How many times longer than modelled a machine may take before it is given up."""
+CAUTION = 1.25
+"""How many times longer than modelled a machine is taken to need where it cannot say."""
+_LONGEST_NAP = 0.25
+"""s between two questions while only the motion in flight is waited for."""
+
+
+class Pace(Protocol):
+    """Decides when the next instruction may go."""
+
+    def wait_for(self, number: int) -> None:
+        """Return when instruction ``number`` may be written; raises NoAnswer."""
+        ...
+
+    def written(self, number: int) -> None:
+        """Learn that it was."""
+        ...
+
+    def finish(self) -> None:
+        """Return when no question of one's own is open and all is believed to be executed."""
+        ...
+
+    @property
+    def ahead(self) -> float:
+        """Motion that may still be under way, s."""
+        ...
+
+
+def pace(session: Session, job: Job) -> Pace:
+    """Choose the pace that the machine's handshake allows."""
+    return Asked(session, job) if session.controls else Modelled(session, job)
+
+
+class Ledger:
+    """Sums over the instructions of a job: bytes and seconds before each."""
+
+    def __init__(self, job: Job) -> None:
+        self.parts = job.parts
+        self.bytes = [0, *accumulate(len(part.data) for part in job.parts)]
+        self.seconds = [0.0, *accumulate(part.seconds for part in job.parts)]
+
+    def in_flight(self, done: int, sent: int) -> float:
+        """Return the motion of instructions ``done`` … ``sent`` - 1, s."""
+        return self.seconds[sent] - self.seconds[done]
+
+    def may_follow(self, done: int, number: int) -> bool:
+        """Whether the next instruction keeps what is in flight short, or within one stroke."""
+        if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
+            return True
+        return self.parts[done].stroke == self.parts[number].stroke
+
+
+class Asked:
+    """ESC.B: ask for the free bytes, early enough that the answer is there before it is needed.
+
+    What is known is a lower bound: the last answer less all that was written since its question was
+    written. One question at a time.
+    """
+
+    def __init__(self, session: Session, job: Job) -> None:
+        self._session, self._ledger = session, Ledger(job)
+        self._reserve = reserve(session.buffer)
+        self._cover = ceil(1.5 * session.round_trip / session.byte_time)
+        """Bytes that keep the line busy while an answer comes."""
+        self._sent = 0
+        """Instructions written."""
+        self._free, self._free_at = session.buffer, 0
+        """The last answer, and how many instructions were written before its question."""
+        self._done = 0
+        """Instructions that had left the buffer then."""
+        self._asked: int | None = None
+        """Instructions written before the open question."""
+        self._progress = self._asked_when = session.clock.now()
+
+    @property
+    def ahead(self) -> float:
+        """Motion that may still be under way, the one that has left the buffer included."""
+        return self._ledger.in_flight(max(0, self._done - 1), self._sent)
+
+    def wait_for(self, number: int) -> None:
+        """Return when it fits; asks at once when it does not."""
+        self._hear(self._session.answer_at_hand() if self._asked is not None else None)
+        while not self._fits(number):
+            self._ask()
+            self._wait()
+            self._nap(number)
+        if self._asked is None and self._following(number) < self._cover:
+            self._ask()  # what follows on the line covers the time until the answer
+
+    def written(self, number: int) -> None:
+        """Count it as in the buffer."""
+        self._sent = number + 1
+
+    def finish(self) -> None:
+        """Wait for an answer that is still open, so that the next one is not mistaken for it."""
+        if self._asked is not None:
+            self._wait()
+
+    @property
+    def _bound(self) -> int:
+        """Bytes that are free at least."""
+        ledger = self._ledger
+        return self._free - (ledger.bytes[self._sent] - ledger.bytes[self._free_at])
+
+    def _fits(self, number: int) -> bool:
+        length = len(self._ledger.parts[number].data)
+        return length + self._reserve <= self._bound and self._ledger.may_follow(self._done, number)
+
+    def _following(self, number: int) -> int:
+        """Return the bytes that could follow instruction ``number`` without another answer."""
+        ledger = self._ledger
+        room = self._bound - self._reserve + ledger.bytes[self._sent]
+        last = bisect_right(ledger.bytes, room) - 1
+        if last >= len(ledger.parts):
+            return self._cover  # all the rest fits
+        while last > number + 1 and not ledger.may_follow(self._done, last - 1):
+            last -= 1
+        return max(0, ledger.bytes[last] - ledger.bytes[number + 1])
+
+    def _ask(self) -> None:
+        if self._asked is None:
+            self._session.ask_free()
+            self._asked, self._asked_when = self._sent, self._session.clock.now()
+
+    def _wait(self) -> None:
+        on_line = self._session.buffer * self._session.byte_time
+        answer = self._session.answer(self._asked_when + on_line + PATIENCE)
+        if answer is None:
+            raise NoAnswer(
+                f"The plotter has stopped answering after instruction {self._sent} of "
+                f"{len(self._ledger.parts)}; the cable, or the machine itself."
+            )
+        self._hear(answer)
+        self._check_progress()
+
+    def _hear(self, answer: str | None) -> None:
+        if answer is None or self._asked is None:
+            return
+        if not answer.isdigit():
+            raise NoAnswer(
+                f"The plotter answered {answer!r} where it should have told its free bytes. "
+                "Something disturbs the line; check the cable and the baud rate."
+            )
+        self._free, self._free_at = min(int(answer), self._session.buffer), self._asked
+        self._asked = None
+        gone = self._ledger.bytes[self._free_at] - (self._session.buffer - self._free)
+        done = max(self._done, bisect_right(self._ledger.bytes, gone) - 1)
+        if done > self._done or self._done == self._sent:
+            self._progress = self._session.clock.now()
+        self._done = done
+
+    def _check_progress(self) -> None:
+        clock = self._session.clock
+        if clock.now() < self._progress + PATIENCE + SLACK * self.ahead:
+            return
+        if self._session.paused():
+            self._progress = clock.now()  # a person's doing; waiting costs nothing
+            return
+        raise NoAnswer(
+            f"The plotter answers, but has stood still since instruction {self._done} of "
+            f"{len(self._ledger.parts)}; its own display may say why."
+        )
+
+    def _nap(self, number: int) -> None:
+        """Do not ask hundreds of times while only a long motion is waited for."""
+        length = len(self._ledger.parts[number].data)
+        if length + self._reserve <= self._bound and not self._fits(number):
+            over = self._ledger.in_flight(self._done, number + 1) - IN_FLIGHT
+            self._session.clock.sleep(min(_LONGEST_NAP, over / 2))
+
+
+class Modelled:
+    """No answers while it runs: the motion model says what the machine has executed by now.
+
+    With XON/XOFF the machine guards its buffer itself; without, the model must, and is taken with
+    caution.
+    """
+
+    def __init__(self, session: Session, job: Job) -> None:
+        self._session, self._ledger = session, Ledger(job)
+        self._guarded = session.machine.serial.handshake == "xon-xoff"
+        self._factor = 1.0 if self._guarded else CAUTION
+        self._room = session.buffer - reserve(session.buffer)
+        self._sent = 0
+        self._ends: deque[tuple[float, int]] = deque()
+        """When each instruction in flight is believed to be executed, s, and its number."""
+        self._line_free = self._finished = session.clock.now()
+
+    @property
+    def ahead(self) -> float:
+        """Motion that may still be under way."""
+        return max(0.0, self._finished - self._session.clock.now())
+
+    def wait_for(self, number: int) -> None:
+        """Return when the machine is believed to have room, and nothing lies in this computer."""
+        while self._ends and not self._fits(number):
+            self._session.clock.sleep_until(self._ends[0][0])
+            self._settle()
+        self._settle()
+        self._wait_until_sent()
+
+    def written(self, number: int) -> None:
+        """Work out when it will have arrived and been executed."""
+        part = self._ledger.parts[number]
+        start = max(self._line_free, self._session.clock.now())
+        self._line_free = start + len(part.data) * self._session.byte_time
+        self._finished = max(self._line_free, self._finished) + part.seconds * self._factor
+        self._ends.append((self._finished, number))
+        self._sent = number + 1
+
+    def finish(self) -> None:
+        """Wait until the model says all is done."""
+        self._session.clock.sleep_until(self._finished)
+
+    def _settle(self) -> None:
+        now = self._session.clock.now()
+        while self._ends and self._ends[0][0] <= now:
+            self._ends.popleft()
+
+    def _fits(self, number: int) -> bool:
+        done = self._ends[0][1]
+        in_buffer = self._ledger.bytes[number + 1] - self._ledger.bytes[done]
+        room = self._guarded or in_buffer <= self._room
+        return room and self._ledger.may_follow(done, number)
+
+    def _wait_until_sent(self) -> None:
+        """Keep at most one instruction in this computer, where XOFF could hold it unseen."""
+        session = self._session
+        most = session.machine.dialect.max_instruction
+        deadline = session.clock.now() + PATIENCE + SLACK * max(self.ahead, IN_FLIGHT)
+        while (session.unsent() or 0) > most:
+            if session.clock.now() >= deadline:
+                raise NoAnswer(
+                    f"The plotter has held the line since instruction {self._sent} of "
+                    f"{len(self._ledger.parts)}; it may be paused or out of order."
+                )
+            session.clock.sleep(session.byte_time * most / 8)

@@ -1,0 +1,168 @@
+"""A conversation with one machine: open it, ask it, write to it, stop it.
+
+Device control (ESC . letter) is spoken only to machines whose handshake is ESC.B; a cutter that
+does not know it might take the letters for HP-GL. Never two questions at once: overlapping output
+is an I/O error of the machine.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.plotter.clock import Clock
+from foldmill_fabricate.plotter.errors import NoAnswer
+
+_FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
+_FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
+_PAUSED = 16 | 32
+"""Bits of the extended status: paused by a key, or a lever up."""
+
+PATIENCE = 5.0
+"""s of silence that are believed to be silence, beyond what the line and the motion take."""
+_NOISE = bytes((0x11, 0x13, 0x0A))
+"""XON, XOFF and line feed among the answers."""
+_SMALLEST, _LARGEST = 64, 1 << 26
+"""bytes; a buffer outside is a misread answer."""
+
+READ_SLICE = 0.1
+"""s that one read waits at most; deadlines are counted by the clock."""
+
+BY_HAND = "Stop the machine by hand: it may still be cutting what it has been given."
+
+
+def reserve(buffer: int) -> int:
+    """Return the bytes of a buffer that are never filled: real machines overflow before the end."""
+    return min(128, buffer // 4)
+
+
+def longest(buffer: int, machine: Machine) -> int:
+    """Return the longest instruction that is sent at once, bytes.
+
+    A third of what may be filled: while one is on the line and one in the buffer, a third can be
+    promised, and so the line never waits for an answer.
+    """
+    return min(machine.dialect.max_instruction, (buffer - reserve(buffer)) // 3)
+
+
+class Session:
+    """The port, the clock and the machine's profile, and what has been learnt since."""
+
+    def __init__(self, port: Any, machine: Machine, clock: Clock) -> None:
+        self.port, self.machine, self.clock = port, machine, clock
+        if port.timeout is None:
+            port.timeout = READ_SLICE  # a read that waits for ever knows no deadline
+        self.byte_time = 10 / machine.serial.baud
+        self.buffer = machine.serial.buffer
+        """Bytes the machine holds: as its profile says, then as it says itself."""
+        self.round_trip = 0.0
+        """s from a question to its answer on a line that is otherwise still; 0 for not known."""
+        self.whole = True
+        """Whether all that was written so far ends with a whole instruction."""
+        self._heard = b""
+
+    @property
+    def controls(self) -> bool:
+        """Whether the machine understands device control."""
+        return self.machine.serial.handshake == "esc-b"
+
+    def open(self) -> None:
+        """Find the machine ready; raises NoAnswer where it should answer and does not."""
+        self.port.reset_input_buffer()
+        if not self.controls:
+            return
+        self.port.write(_FORGET)
+        asked = self.clock.now()
+        if self.control(_ERROR, PATIENCE) is None:
+            raise NoAnswer(
+                f"The plotter does not answer at {self.machine.serial.baud} baud. Is it on, is the "
+                "cable the right one, and does its own setting agree with the baud rate?"
+            )
+        self.round_trip = self.clock.now() - asked
+        self.buffer = self._size()
+
+    def write(self, data: bytes) -> None:
+        """Write one whole instruction."""
+        self.whole = False
+        self.port.write(data)
+        self.whole = True
+
+    def ask_free(self) -> None:
+        """Ask for the free bytes; ``answer`` brings them."""
+        self.port.write(_FREE)
+
+    def control(self, question: bytes, patience: float) -> int | None:
+        """Ask by device control and wait; None for silence, or an answer that is no number."""
+        self.port.write(question)
+        text = self.answer(self.clock.now() + patience)
+        return int(text) if text is not None and text.isdigit() else None
+
+    def io_error(self) -> int | None:
+        """Return the machine's I/O error, 0 for none; None for silence."""
+        return self.control(_ERROR, PATIENCE)
+
+    def paused(self) -> bool:
+        """Whether somebody has paused the machine at its own keys."""
+        return bool((self.control(_STATUS, PATIENCE) or 0) & _PAUSED)
+
+    def query(self, question: bytes, patience: float) -> str | None:
+        """Ask by HP-GL, which is answered when all before it is executed; None for silence."""
+        self.write(question)
+        return self.answer(self.clock.now() + patience)
+
+    def answer(self, deadline: float) -> str | None:
+        """Return the next answer, without its CR; None where there is none by then."""
+        while (found := self.answer_at_hand()) is None:
+            if self.clock.now() >= deadline:
+                return None
+            self._heard += self.port.read(1)
+        return found
+
+    def answer_at_hand(self) -> str | None:
+        """Return an answer if one has come in whole."""
+        ready = self.port.in_waiting
+        if ready:
+            self._heard += self.port.read(ready)
+        if b"\r" not in self._heard:
+            return None
+        line, _, self._heard = self._heard.partition(b"\r")
+        return line.translate(None, _NOISE).decode("ascii", "replace").strip()
+
+    def unsent(self) -> int | None:
+        """Return the bytes still in this computer; None where the port cannot tell."""
+        try:
+            return int(self.port.out_waiting)
+        except (AttributeError, OSError):
+            return None
+
+    def stop(self) -> str:
+        """Stop the machine as far as its profile allows, and say what that means.
+
+        It discards what has not left, lifts XOFF, and lifts the tool. It never moves in x and y and
+        never sends IN.
+        """
+        try:
+            unsent = self.unsent()
+            self.port.reset_output_buffer()
+            self._lift_xoff()
+            if self.controls:
+                self.port.write(_FORGET + b"PU;")
+                return "The machine was told to drop what it has and to lift its tool."
+            if self.whole and unsent == 0:
+                self.port.write(b"PU;")
+            return BY_HAND
+        except Exception:  # termios has an error of its own; whatever it is, a person must act
+            return BY_HAND
+
+    def _size(self) -> int:
+        found = self.control(_SIZE, PATIENCE)
+        if found is None:  # some machines tell it only when they are at rest
+            self.port.write(_FORGET_ANSWERS)
+            self.clock.sleep(self.round_trip)
+            self.port.reset_input_buffer()
+            self._heard = b""
+        return found if found and _SMALLEST <= found <= _LARGEST else self.buffer
+
+    def _lift_xoff(self) -> None:
+        if hasattr(self.port, "set_output_flow_control"):
+            self.port.set_output_flow_control(True)

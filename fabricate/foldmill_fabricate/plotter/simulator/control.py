@@ -1,0 +1,83 @@
+"""Device control: the sequences ESC . letter, taken out of the bytes before the buffer.
+
+Source: HP 7470A Interfacing and Programming Manual, chapter 10; HP 7475A the same set.
+Parameters stand between ``;``, end with ``:`` and belong to some letters only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+ESC = 0x1B
+_WITH_PARAMETERS = frozenset(b"@HIMN")
+_DIGITS = frozenset(b"0123456789")
+_MOST_PARAMETERS = 12
+_HIGHEST = 32767
+
+BAD_LETTER, BAD_PARAMETER, PARAMETER_RANGE, TOO_MANY = 11, 12, 13, 14
+"""I/O errors, as ESC.E answers them."""
+
+
+@dataclass(frozen=True)
+class Command:
+    """A device-control sequence; ``error`` is an I/O error number, or 0."""
+
+    letter: str
+    parameters: tuple[int, ...] = ()
+    error: int = 0
+
+
+@dataclass
+class ControlChannel:
+    """Splits a stream of bytes into device control and HP-GL, byte by byte."""
+
+    _seen: str = ""
+    """"", "esc", "dot", or the letter whose parameters are coming in."""
+    _fields: list[str] = field(default_factory=list)
+
+    @property
+    def between(self) -> bool:
+        """Whether the next byte does not belong to a sequence already begun."""
+        return not self._seen
+
+    def feed(self, byte: int) -> int | Command | None:
+        """Take a byte: it comes back as HP-GL, ends a sequence, or is swallowed (None)."""
+        if byte == ESC:  # whatever was begun is given up
+            self._seen = "esc"
+            return None
+        if not self._seen:
+            return byte
+        if self._seen == "esc":
+            return self._dot(byte)
+        if self._seen == "dot":
+            return self._letter(byte)
+        return self._parameter(byte)
+
+    def _dot(self, byte: int) -> Command | None:
+        self._seen = "dot" if byte == ord(".") else ""
+        return None if self._seen else Command(chr(byte), error=BAD_LETTER)
+
+    def _letter(self, byte: int) -> Command | None:
+        if byte in _WITH_PARAMETERS:
+            self._seen, self._fields = chr(byte), [""]
+            return None
+        self._seen = ""
+        return Command(chr(byte))
+
+    def _parameter(self, byte: int) -> Command | None:
+        if byte in _DIGITS:
+            self._fields[-1] += chr(byte)
+        elif byte == ord(";"):
+            self._fields.append("")
+        else:
+            return self._finished(0 if byte == ord(":") else BAD_PARAMETER)
+        return None
+
+    def _finished(self, error: int) -> Command:
+        letter, self._seen = self._seen, ""
+        values = tuple(int(text or 0) for text in self._fields)
+        if not error and len(values) > _MOST_PARAMETERS:
+            error = TOO_MANY
+        if not error and max(values) > _HIGHEST:
+            error = PARAMETER_RANGE
+        return Command(letter, values, error)

@@ -1,0 +1,101 @@
+"""Pictures of what the simulator drew: each face as the machine saw it, so the reverse is mirrored.
+
+Millimetres of the carrier, x right, y up; one group per tool setting, in order of first use.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foldmill_fabricate.files import write_all
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.passes import Face
+from foldmill_fabricate.pictures import canvas
+from foldmill_fabricate.plotter.simulator.drawing import Drawn, DrawnSheet
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_COLOURS = ("#c8102e", "#0057b8", "#1b7f3b", "#8a3ffc", "#b8590a", "#5b616b")
+_PICTURE = 180.0
+"""mm"""
+
+_SHEET = "fill:#ffffff;stroke:#c9ccd1;stroke-width:0.5"
+
+Groups = dict[str, list[Drawn]]
+
+
+def groups(strokes: list[Drawn]) -> Groups:
+    """Sort strokes by tool, speed and force: "tool 1, 100 mm/s, 80 gf" → its strokes."""
+    found: Groups = {}
+    for stroke in strokes:
+        force = "" if stroke.force is None else f", {stroke.force:g} gf"
+        found.setdefault(f"tool {stroke.tool}, {stroke.speed:g} mm/s{force}", []).append(stroke)
+    return found
+
+
+def svg(strokes: list[Drawn], machine: Machine, title: str) -> bytes:
+    """Draw one face as SVG: mm, viewBox in mm, deterministic bytes."""
+    width, height = machine.bed.carrier_width, machine.bed.carrier_height
+    size = f'width="{width:g}mm" height="{height:g}mm" viewBox="0 0 {width:g} {height:g}"'
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
+        f"<title>{title}</title>",
+        f'<path d="M0,0 {width:g},0 {width:g},{height:g} 0,{height:g} Z" style="{_SHEET}"/>',
+    ]
+    for number, (name, members) in enumerate(groups(strokes).items()):
+        colour = _COLOURS[number % len(_COLOURS)]
+        style = "fill:none;stroke-width:0.5;stroke-linecap:round;stroke-linejoin:round"
+        lines.append(f'<g id="set-up-{number + 1}" style="{style};stroke:{colour}">')
+        lines.append(f"<title>{name}</title>")
+        lines += [f'<path d="{_way(each, machine, height)}"/>' for each in members]
+        lines.append("</g>")
+    return "\n".join([*lines, "</svg>", ""]).encode()
+
+
+def png(strokes: list[Drawn], machine: Machine, title: str) -> bytes:
+    """Draw one face as PNG, with a legend of its tool settings; deterministic bytes."""
+    with canvas.own_style():
+        return canvas.png(_figure(strokes, machine, title))
+
+
+def _figure(strokes: list[Drawn], machine: Machine, title: str) -> Figure:
+    width, height = machine.bed.carrier_width, machine.bed.carrier_height
+    figure = canvas.figure(_PICTURE, _PICTURE * height / width)
+    figure.set_layout_engine("constrained")
+    axes = figure.add_subplot(
+        xlim=(0, width), ylim=(0, height), aspect="equal", title=title, xlabel="mm", ylabel="mm"
+    )
+    for number, (name, members) in enumerate(groups(strokes).items()):
+        colour = _COLOURS[number % len(_COLOURS)]
+        ways = [each.millimetres(machine.axes) for each in members]
+        canvas.add_lines(axes, ways, color=colour, linewidth=1.0)
+        canvas.legend_entry(axes, name, color=colour)
+    if strokes:
+        figure.legend(loc="outside lower center", ncols=2, fontsize="small")
+    return figure
+
+
+def draw(sheet: DrawnSheet, machine: Machine, folder: Path) -> list[Path]:
+    """Write front and reverse as SVG and PNG into a folder, each whole; return their paths."""
+    contents = {}
+    for face in Face:
+        title = f"{face.capitalize()}, as {machine.slug} saw it"
+        contents[f"{face}.svg"] = svg(sheet.strokes[face], machine, title)
+        contents[f"{face}.png"] = png(sheet.strokes[face], machine, title)
+    write_all(folder, contents)
+    return [folder / name for name in contents]
+
+
+def _way(stroke: Drawn, machine: Machine, height: float) -> str:
+    points = [
+        f"{_short(x)},{_short(height - y)}" for x, y in stroke.millimetres(machine.axes).tolist()
+    ]
+    return "M" + " ".join(points if len(points) > 1 else points * 2)  # a dot needs a second end
+
+
+def _short(value: float) -> str:
+    """Return mm to a tenth of a micrometre, without trailing zeros."""
+    return f"{value:.4f}".rstrip("0").rstrip(".")
