@@ -1,0 +1,163 @@
+"""The command line: what people type, what they are told, and the exit code."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from foldmill_fabricate.cli import main
+
+
+class Told:
+    """What a run of the command said."""
+
+    def __init__(self, code: int, out: str, err: str) -> None:
+        self.code, self.out, self.err = code, out, err
+
+
+@pytest.fixture
+def foldmill(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return Run(capsys, monkeypatch)
+
+
+class Run:
+    """Call the command in this process, as a shell would."""
+
+    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+        self.capsys, self.monkeypatch = capsys, monkeypatch
+
+    def __call__(self, *words: str) -> Told:
+        self.monkeypatch.setattr(sys, "argv", ["foldmill", *words])
+        with pytest.raises(SystemExit) as stop:
+            main()
+        said = self.capsys.readouterr()
+        return Told(int(stop.value.code or 0), said.out, said.err)
+
+
+def test_the_whole_way_from_parameters_to_a_simulated_plotter(foldmill: Run) -> None:
+    designed = foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold", "--json")
+    assert designed.code == 0
+    assert json.loads(designed.out)["mountains"] == 80
+    checked = json.loads(foldmill("check", "stool.fold", "--json").out)
+    assert checked["figures"]["penetrations"] == 0
+    assert foldmill("plan", "stool.fold", "-o", "job").code == 0
+    assert json.loads(foldmill("verify", "job", "--json").out)["ok"] is True
+    sent = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--draw", "cut")
+    assert sent.out.count("executed") == 4
+    assert Path("cut/reverse.svg").exists()
+
+
+@pytest.mark.parametrize("suffix", ["fold", "svg", "png", "glb", "stl", "obj"])
+def test_a_design_is_written_as_its_suffix_says(foldmill: Run, suffix: str) -> None:
+    assert foldmill("design", "rotational", "-o", f"form.{suffix}").code == 0
+    assert Path(f"form.{suffix}").stat().st_size > 500
+
+
+def test_one_value_by_its_dotted_name_changes_the_form(foldmill: Run) -> None:
+    told = foldmill("design", "tuck", "--preset", "stool-n8", "--tucks.0.t", "null", "--json")
+    assert told.code == 0
+    assert foldmill("design", "rotational", "--points.2.a=70", "-o", "a.fold").code == 0
+    params = json.loads(Path("a.fold").read_text())["foldmill:design"]["params"]
+    assert params["points"]["2"]["a"] == 70
+
+
+def test_parameters_come_from_a_file_too(foldmill: Run) -> None:
+    Path("p.toml").write_text("n = 6\n[points.2]\na = 70.0\n")
+    assert foldmill("design", "rotational", "--params", "p.toml", "-o", "a.fold").code == 0
+    assert json.loads(Path("a.fold").read_text())["foldmill:design"]["params"]["n"] == 6
+
+
+def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
+    told = foldmill("design", "tuck", "--help").out
+    assert "--points.3.a" in told
+    assert "mm" in told
+    assert "deg" in told
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["design", "tuk"], "There is no family 'tuk'. There are:"),
+        (["design", "tuck", "--preset", "stool"], "There is no preset of tuck 'stool'"),
+        (["design", "tuck", "--n", "2"], "n: Input should be greater than or equal to 3"),
+        (["design", "tuck", "--points.9.a", "5"], "numbered 1, 2, 3"),
+        (["design", "tuck", "--colour", "red"], "colour: Extra inputs are not permitted"),
+        (["design", "tuck", "--phi"], "--phi needs a value"),
+        (["design", "tuck", "--phi", "NaN"], "phi: Input should be"),
+        (["design", "tuck", "-o", "stool.dwg"], "write .fold .svg .png .glb .stl or .obj"),
+        (["check", "nothing.fold"], "nothing.fold: no such file or directory."),
+        (["plan", "bad.fold", "-o", "job"], "bad.fold"),
+        (["plan", "a.fold", "-o", "job", "--material", "oak"], "There is no material 'oak'"),
+        (["plan", "a.fold", "-o", "job", "--machine", "x"], "There is no machine 'x'"),
+        (["plan", "a.fold", "-o", "job", "--blank", "big"], "write WIDTHxHEIGHT in mm"),
+        (["plan", "a.fold", "-o", "job", "--blank", "50x50"], "mm are missing"),
+        (["plan", "a.fold", "-o", "job", "--to", "dwg"], "There is no format 'dwg'"),
+        (["verify", "nowhere"], "nowhere"),
+        (["send", "nowhere", "--port", "sim://generic-hpgl-600"], "nowhere"),
+        (["simulate"], "--pty LINK or --tcp PORT"),
+        (["show", "a.fold", "-o", "a.gif"], "a picture is written as .png"),
+    ],
+)
+def test_wrong_input_gets_one_sentence_and_leaves_nothing_behind(
+    foldmill: Run, words: list[str], sentence: str
+) -> None:
+    Path("bad.fold").write_text("{ not json")
+    foldmill("design", "rotational", "-o", "a.fold")
+    before = sorted(Path().iterdir())
+    told = foldmill(*words)
+    assert told.code == 2
+    assert sentence in told.err
+    assert "Traceback" not in told.err
+    assert sorted(Path().iterdir()) == before
+
+
+def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
+    foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold")
+    foldmill("plan", "stool.fold", "-o", "job")
+    program = Path("job/2-front-score.hpgl")
+    program.write_bytes(program.read_bytes().replace(b"PD", b"PU", 1))
+    assert foldmill("verify", "job").code == 1
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes")
+    assert told.code == 2
+    assert "does not verify" in told.err
+
+
+def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    told = foldmill("send", "job", "--port", "/dev/ttyUSB99", "--yes")
+    assert told.code == 2
+    assert "somebody has to load" in told.err
+
+
+def test_a_job_fitted_to_marks_is_sent_and_a_wrong_reading_is_not(foldmill: Run) -> None:
+    foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold")
+    foldmill("plan", "stool.fold", "-o", "job")
+    send = ("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--pass", "reverse")
+    good = foldmill(*send, "--marks", "60.9,539.2;539.9,539.2;70.9,70.2;529.9,70.2")
+    assert "shift +0.40, -0.30 mm" in good.out
+    assert good.out.count("executed") == 2
+    bad = foldmill(*send, "--marks", "60.5,539.5;536.0,539.5")
+    assert bad.code == 2
+    assert "scale" in bad.err
+
+
+def test_help_is_quick_because_nothing_heavy_is_imported() -> None:
+    code = (
+        "import sys; sys.argv = ['foldmill', '--help']\n"
+        "from foldmill_fabricate.cli import main\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "heavy = {'matplotlib', 'scipy', 'ezdxf', 'shapely', 'trimesh', 'serial', 'networkx'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    env = {**os.environ, "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env)
+    assert done.stdout.strip().endswith("[]"), done.stdout + done.stderr
