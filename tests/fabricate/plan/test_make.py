@@ -20,7 +20,8 @@ def square(creases: str, side: float = 100.0) -> Fold:
     vertices = [[0, 0], [h, 0], [side, 0], [side, h], [side, side], [h, side], [0, side], [0, h]]
     rim = [[k, (k + 1) % 8] for k in range(8)]
     spokes = [[8, 1], [8, 3], [8, 5], [8, 7]]
-    return Fold(CreasePattern.from_lines([*vertices, [h, h]], rim + spokes, "B" * 8 + creases))
+    points = np.array([*vertices, [h, h]])
+    return Fold(CreasePattern.from_lines(points, rim + spokes, "B" * 8 + creases))
 
 
 def score_strokes(plan: Plan, face: Face) -> list[np.ndarray]:
