@@ -112,6 +112,9 @@ def triangulate(points: Floats, loops: list[list[int]]) -> tuple[Indices, Indice
 def _cut_polygon(points: Floats, loop: list[int]) -> list[tuple[int, ...]]:
     import shapely
 
+    # Ties, as in a square, are decided by the first corner; so begin where every caller would.
+    first = loop.index(min(loop))
+    loop = loop[first:] + loop[:first]
     index = {tuple(points[k]): k for k in loop}
     try:
         cut = shapely.constrained_delaunay_triangles(shapely.Polygon(points[loop]))

@@ -1,0 +1,18 @@
+"""The built-in families keep the contract that any plugin keeps."""
+
+from __future__ import annotations
+
+import pytest
+
+from foldmill.testing import Check, design_checks
+from foldmill_plugins import rotational, tuck
+
+
+@pytest.mark.parametrize("check", design_checks(rotational.DESIGN), ids=str)
+def test_rotational(check: Check) -> None:
+    check()
+
+
+@pytest.mark.parametrize("check", design_checks(tuck.DESIGN), ids=str)
+def test_tuck(check: Check) -> None:
+    check()
