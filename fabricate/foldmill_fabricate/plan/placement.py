@@ -18,6 +18,8 @@ Floats = NDArray[np.float64]
 
 _STEP = 0.5
 """deg between the rotations tried first; the best of them is then refined."""
+ROOMY = 30.0
+"""mm beside the part on every side that leave room for holes and hands: then it is not turned."""
 
 
 def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float, float]) -> Sheet:
@@ -46,7 +48,7 @@ def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float
 
 
 def place(points: Floats, sheet: Sheet, clearance: float) -> Placement:
-    """Turn and centre the part (n, 2) mm on the blank where it has most room.
+    """Centre the part (n, 2) mm on the blank, turned where that is needed to give it room.
 
     Raises DoesNotFit with the missing millimetres and the smallest blank that works.
     """
@@ -56,7 +58,7 @@ def place(points: Floats, sheet: Sheet, clearance: float) -> Placement:
         width, height = np.ptp(turned(hull, degrees), axis=0)
         return float(max(width - sheet.width, height - sheet.height))
 
-    angle = _best_angle(excess)
+    angle = 0.0 if excess(0.0) <= -2 * ROOMY else _best_angle(excess)
     missing = excess(angle) + 2 * clearance
     spots = turned(hull, angle)
     width, height = np.ptp(spots, axis=0)

@@ -108,6 +108,6 @@ def _finding(
         code,
         severity,
         f"creases {a} ({grooves.faces[i]}) and {b} ({grooves.faces[j]}) at ({x:.1f}, {y:.1f}) mm",
-        f"Their grooves come within {gap:.2f} mm of each other; {wanted} are wanted.",
+        f"Their grooves come within {gap:.3f} mm of each other; {wanted} are wanted.",
         "Move the vertices apart, enlarge the design, or take a thinner material.",
     )

@@ -130,6 +130,16 @@ def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
     assert "does not verify" in told.err
 
 
+def test_a_plan_with_an_error_of_its_own_is_written_and_told_but_not_sent(foldmill: Run) -> None:
+    foldmill("design", "rotational", "--preset", "lampshade-n12", "-o", "a.fold")
+    planned = foldmill("plan", "a.fold", "-o", "job")
+    assert planned.code == 1
+    assert "groove ends are wanted" in planned.out
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes")
+    assert told.code == 2
+    assert "its plan says of itself" in told.err
+
+
 def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
     foldmill("plan", "a.fold", "-o", "job")

@@ -66,6 +66,10 @@ def test_the_stool_fits_its_blank_only_when_turned() -> None:
     assert plan.placement.angle == pytest.approx(22.5)
 
 
+def test_a_part_with_room_to_spare_is_not_turned() -> None:
+    assert make(square("MVMV"), material(), machine()).placement.angle == 0
+
+
 def test_a_blank_that_is_too_small_is_refused_with_the_missing_millimetres() -> None:
     with pytest.raises(DoesNotFit, match=r"12\.0 mm are missing.*492\.1 × 492\.1 mm"):
         make(stool(), material(), machine(), blank=(480, 480))
