@@ -115,6 +115,11 @@ def _tie_findings(asked: Asked) -> list[Finding]:
     if len(ties) < LEAST_TIES:
         text = f"The outline has {len(ties)} ties; a part needs {LEAST_TIES} to stay in place."
         found.append(_error("too-few-ties", "outline", text))
+    around = float(asked.lengths[asked.rim].sum())
+    usual = int(around / asked.plan.material.cut.tie_pitch)
+    if LEAST_TIES <= len(ties) < usual:
+        text = f"{len(ties)} ties hold an outline of {around:.0f} mm; {usual} are usual."
+        found.append(Finding("few-ties", Severity.WARNING, "outline", text))
     corners = _corners(asked)
     for k, tie in enumerate(ties, 1):
         found += _one_tie(asked, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)

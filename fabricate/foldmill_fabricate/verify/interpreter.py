@@ -51,15 +51,19 @@ class Trace:
     findings: tuple[Finding, ...]
 
 
-def interpret(program: bytes, name: str = "program") -> Trace:
-    """Run a program on paper; what is wrong in it becomes findings with the byte it stands at."""
-    pen = _Pen(name)
-    text = program.decode("latin-1")
+def interpret(program: bytes, name: str = "program", selects: bool = True) -> Trace:
+    """Run a program on paper; what is wrong in it becomes findings with the byte it stands at.
+
+    selects : whether this machine must be told a tool with SP before the pen moves.
+    """
+    pen = _Pen(name, selects)
+    text = program.decode("latin-1").rstrip()
     place = 0
-    while text[place:].strip():
+    while place < len(text):
         match = _INSTRUCTION.match(text, place)
         if match is None:
-            pen.complain("syntax", place, f"{text[place:].split()[0][:12]!r} is no instruction.")
+            word = text[place : place + 12].split()
+            pen.complain("syntax", place, f"{''.join(word[:1])!r} is no instruction.")
             place = _next_instruction(text, place)
             continue
         if match[1]:
@@ -83,6 +87,7 @@ class _Pen:
     """The state of a plotter that reads a program."""
 
     name: str
+    selects: bool
     runs: list[Run] = field(default_factory=list)
     visited: list[tuple[float, float]] = field(default_factory=list)
     bytes: list[int] = field(default_factory=list)
@@ -165,7 +170,7 @@ class _Pen:
         self.move(mnemonic, values, byte)
 
     def down(self, mnemonic: str, values: list[float], byte: int) -> None:
-        if self.tool is None:
+        if self.selects and self.tool is None:
             self.complain("no-tool", byte, "The pen goes down before SP has chosen a tool.")
         if self.at is None:
             self.complain("no-position", byte, "The pen goes down before it was sent anywhere.")
@@ -193,7 +198,7 @@ class _Pen:
         if len(values) % 2:
             message = f"{mnemonic} has {len(values)} coordinates; they come in pairs."
             self.complain("odd-coordinates", byte, message)
-        if values and self.tool is None and mnemonic != "PD":
+        if self.selects and values and self.tool is None and mnemonic != "PD":
             self.complain("no-tool", byte, "The pen is moved before SP has chosen a tool.")
         if any(not value.is_integer() for value in values):
             self.complain("not-whole", byte, f"{mnemonic} has coordinates that are no whole steps.")

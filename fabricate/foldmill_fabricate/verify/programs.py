@@ -104,7 +104,8 @@ def _hash_findings(file: ProgramFile, data: bytes, fit: Fit | None) -> list[Find
 def _replay(
     plan: Plan, file: ProgramFile, data: bytes, strokes: Sequence[Planned], fit: Fit | None
 ) -> Replay:
-    trace = interpret(data, file.name)
+    tools = plan.machine.tools
+    trace = interpret(data, file.name, selects=bool(tools.score or tools.cut))
     own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
     drawn = lines(trace, plan, file.face, file.name, fit)
     return Replay(file, trace, Drawing(plan, file.name, drawn, own))

@@ -42,4 +42,4 @@ def _verdict(verification: Verification) -> str:
     if verification.ok:
         return "Verdict: the programs draw the plan, and the plan is the pattern's. Cut it."
     errors = sum(f.severity is Severity.ERROR for f in verification.findings)
-    return f"Verdict: NOT to be cut. {errors} errors."
+    return f"Verdict: NOT to be cut. {errors} {'error' if errors == 1 else 'errors'}."

@@ -6,19 +6,21 @@ that explains nearly every point drawn, and every point to be drawn, is named.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
+from foldmill.tolerances import COINCIDENT_MM
 from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.planned import Planned
-from foldmill_fabricate.verify.virtual_sheet import to_carrier
+from foldmill_fabricate.verify.virtual_sheet import rotation, to_carrier
 
 Floats = NDArray[np.float64]
+Solver = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True)
@@ -140,18 +142,18 @@ def _share_on(these: Sequence[Floats], those: Sequence[Floats], reach: float) ->
 def _distortion(
     plan: Plan, expected: Sequence[Floats], drawn: Sequence[Floats], reach: float
 ) -> Cause | None:
-    """Fit an affine map; name it where it is not the identity and explains the program."""
+    """Fit a displacement, then an affine map; name the first that explains the program."""
     if not expected or not drawn:
         return None
     goal, found = _corners(expected), _corners(drawn)
-    turn, shift = _fitted(goal, found)
-    moved = goal @ turn.T + shift
-    if np.hypot(*(moved - goal).T).max() <= reach:
-        return None
-    fitted = [points @ turn.T + shift for points in expected]
-    if _explained(fitted, drawn, reach) < tolerances.EXPLAINED:
-        return None
-    return _named(plan, turn, shift)
+    for solve in (_rigid, _affine):
+        turn, shift = _fitted(goal, found, solve)
+        moved = [points @ turn.T + shift for points in expected]
+        far = np.hypot(*(goal @ turn.T + shift - goal).T).max() > reach
+        if far and _explained(moved, drawn, reach) >= tolerances.EXPLAINED:
+            middle = goal.mean(axis=0)
+            return _named(plan, turn, middle, turn @ middle + shift)
+    return None
 
 
 def _corners(polylines: Sequence[Floats]) -> Floats:
@@ -159,22 +161,33 @@ def _corners(polylines: Sequence[Floats]) -> Floats:
     return corners
 
 
-def _fitted(goal: Floats, found: Floats) -> tuple[Floats, Floats]:
+def _fitted(goal: Floats, found: Floats, solve: Solver) -> tuple[Floats, Floats]:
     """Return A (2, 2) and b (2,) with found ≈ A·goal + b, from corners matched by nearness."""
     from scipy.spatial import cKDTree
 
     extent = np.ptp(goal, axis=0)
-    scale = np.where(extent > 1, np.ptp(found, axis=0) / np.maximum(extent, 1), 1.0)
-    turn, shift = np.diag(scale), found.min(axis=0) - scale * goal.min(axis=0)
+    free = (extent > 1) & (solve is _affine)
+    scale = np.where(free, np.ptp(found, axis=0) / np.maximum(extent, 1), 1.0)
+    middle = (goal.max(axis=0) + goal.min(axis=0)) / 2
+    turn = np.diag(scale)
+    shift = (found.max(axis=0) + found.min(axis=0)) / 2 - scale * middle
     tree = cKDTree(found)
     for _ in range(8):
         gaps, nearest = tree.query(goal @ turn.T + shift)
-        good = gaps <= 3 * np.median(gaps) + 1e-9
-        turn, shift = _solved(goal[good], found[nearest[good]])
+        good = gaps <= 3 * np.median(gaps) + COINCIDENT_MM
+        turn, shift = solve(goal[good], found[nearest[good]])
     return turn, shift
 
 
-def _solved(goal: Floats, found: Floats) -> tuple[Floats, Floats]:
+def _rigid(goal: Floats, found: Floats) -> tuple[Floats, Floats]:
+    middle, other = goal.mean(axis=0), found.mean(axis=0)
+    (x, y), (u, v) = (goal - middle).T, (found - other).T
+    angle = np.degrees(np.arctan2((x * v - y * u).sum(), (x * u + y * v).sum()))
+    turn = rotation(float(angle))
+    return turn, other - turn @ middle
+
+
+def _affine(goal: Floats, found: Floats) -> tuple[Floats, Floats]:
     middle, other = goal.mean(axis=0), found.mean(axis=0)
     spread = goal - middle
     if len(goal) < 3 or np.linalg.svd(spread, compute_uv=False)[1] < 1.0:
@@ -183,15 +196,17 @@ def _solved(goal: Floats, found: Floats) -> tuple[Floats, Floats]:
     return turn, other - turn @ middle
 
 
-def _named(plan: Plan, turn: Floats, shift: Floats) -> Cause:
+def _named(plan: Plan, turn: Floats, middle: Floats, seen: Floats) -> Cause:
+    """Say what an affine map does that moves ``middle`` to ``seen``."""
     x, y = (float(np.hypot(*turn[:, k])) for k in (0, 1))
     off = max(abs(x - 1), abs(y - 1))
     angle = float(np.degrees(np.arctan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])))
     if off <= tolerances.EVEN_SCALE:
+        dx, dy = np.round(seen - rotation(angle) @ middle, 2) + 0.0  # no minus zero
         return Cause(
             "displaced",
-            f"Everything lies shifted by ({shift[0]:.2f}, {shift[1]:.2f}) mm and turned by "
-            f"{angle:.3f}° about the carrier's origin.",
+            f"Everything lies shifted by ({dx:.2f}, {dy:.2f}) mm and turned by {angle:.3f}° about "
+            f"the carrier's origin.",
             "If it was fitted to measured marks, verify it with the same marks.",
         )
     units = plan.machine.axes.units_per_mm

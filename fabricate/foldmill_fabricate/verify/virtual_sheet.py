@@ -61,7 +61,7 @@ def on_sheet(carrier: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Flo
     seen = np.asarray(carrier, float)
     reverse = face is Face.REVERSE
     if reverse and fit is not None:
-        seen = (seen - (fit.dx, fit.dy)) @ _rotation(-fit.angle).T
+        seen = (seen - (fit.dx, fit.dy)) @ rotation(-fit.angle).T
     seen = seen - (plan.sheet.dx, plan.sheet.dy)
     result: Floats = turned_over(seen, plan.flip) if reverse else seen
     return result
@@ -74,7 +74,7 @@ def to_carrier(sheet: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Flo
     seen = turned_over(seen, plan.flip) if reverse else seen
     seen = seen + np.array([plan.sheet.dx, plan.sheet.dy])
     if reverse and fit is not None:
-        seen = seen @ _rotation(fit.angle).T + np.array([fit.dx, fit.dy])
+        seen = seen @ rotation(fit.angle).T + np.array([fit.dx, fit.dy])
     result: Floats = seen
     return result
 
@@ -87,7 +87,8 @@ def turned_over(points: Floats, flip: Flip) -> Floats:
     return over
 
 
-def _rotation(degrees: float) -> Floats:
+def rotation(degrees: float) -> Floats:
+    """Return the matrix (2, 2) that turns a column counter-clockwise."""
     angle = np.radians(degrees)
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
+import numpy as np
 import pytest
 import stools
 from fabricate.verify import square_job
-from fabricate.verify.corruptions import PLANS, PROGRAMS, replanned
+from fabricate.verify.corrupt_plans import PLANS, replanned
+from fabricate.verify.corrupt_programs import PROGRAMS, read, with_part
 from fabricate.verify.square_job import ONE_TOOL, PENS, Job
 
 from foldmill.finding import Severity
@@ -79,3 +81,28 @@ def test_it_is_found_in_the_plan_that(
 ) -> None:
     result = verified(replanned(job(*which), spoil))
     assert code in errors(result)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_any_stroke_that_is_lost_or_shifted_is_found(seed: int) -> None:
+    """Two steps are twice what is allowed; one stroke in a hundred and fifty."""
+    good = job("stool", ONE_TOOL, "left-right")
+    rng = np.random.default_rng(seed)
+    name = str(rng.choice(sorted(good.programs)))
+    strokes = [k for k, part in enumerate(read(good.programs[name])) if not isinstance(part, str)]
+    part = int(rng.choice(strokes))
+    stroke = read(good.programs[name])[part]
+    assert not isinstance(stroke, str)
+    dx, dy = ((2, 0), (0, 2), (-2, 0), (0, -2))[seed % 4]
+    shifted = [(x + dx, y + dy) for x, y in stroke]
+    assert errors(verified(with_part(good, name, part))) == {"missing-stroke"}
+    assert errors(verified(with_part(good, name, part, shifted))) == {"moved"}
+
+
+def test_a_hundred_faults_of_one_kind_are_counted_not_listed() -> None:
+    good = job("stool", ONE_TOOL, "left-right")
+    empty = dict.fromkeys(good.programs, b"IN;DF;PA;PU;SP1;PU;SP0;")
+    result = verified(square_job.recorded(Job(good.plan, good.pattern, empty)))
+    lost = [finding for finding in result.findings if finding.code == "missing-stroke"]
+    assert len(lost) == 13
+    assert lost[-1].message == f"There are {result.figures.strokes - 12} more of this kind."
