@@ -73,9 +73,6 @@ def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
     proof = verify_folder(path)
     _refuse(proof, path)
     plan = Plan.model_validate_json((path / PLAN).read_bytes())
-    faults = [finding for finding in plan.findings if finding.severity is Severity.ERROR]
-    if faults:
-        raise CannotSend(f"{path} is not sent, for its plan says of itself: {faults[0]}")
     if not plan.programs:
         raise CannotSend(f"{path} holds drawings only; plan it again with --to hpgl.")
     programs = {part.name: (path / part.name).read_bytes() for part in plan.programs}

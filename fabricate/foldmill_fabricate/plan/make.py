@@ -56,7 +56,7 @@ def make(
     marks = _register(fold, spots, sheet, turn, material, by_face)
     cuts, ties = outline.outer_cut(pattern, spots, material.cut)
     all_scored = np.concatenate(list(by_face.values()))
-    stops = scores.held_back(pattern, all_scored)
+    stops = scores.held_back(pattern, by_face)
     rules.refuse_short_creases(pattern, all_scored, stops, material.score.setback)
 
     def lines(face: Face, start: Floats) -> Lines:

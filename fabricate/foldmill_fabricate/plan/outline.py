@@ -15,6 +15,8 @@ from foldmill_fabricate.toolpath import order, trails
 
 Floats = NDArray[np.float64]
 
+STRAIGHT_DEG = 0.001
+"""deg. An outline that bends by less is one straight edge."""
 LEAST_TIES = 3
 """Fewer let the part swing about the last one."""
 
@@ -41,13 +43,21 @@ def outer_cut(
     loops = pattern.outline()
     if not loops:
         raise CannotPlan("The pattern has no closed outline, so nothing can be cut free.")
-    rim = spots[loops[0]]
+    rim = _corners(spots[loops[0]])
     places = _tie_places(rim, cut)
     ties = [_at(rim, place) for place in places]
     strokes = []
     for here, after in zip(places, [*places[1:], places[0] + _reached(rim)[-1]], strict=True):
         strokes.append(_between(rim, here + cut.tie_width / 2, after - cut.tie_width / 2))
     return tuple(strokes), tuple(Tie(x=float(x), y=float(y), width=cut.tie_width) for x, y in ties)
+
+
+def _corners(rim: Floats) -> Floats:
+    """Drop the vertices at which the rim goes straight on: a tie may lie across them."""
+    one, two = rim - np.roll(rim, 1, axis=0), np.roll(rim, -1, axis=0) - rim
+    bend = np.degrees(np.arctan2(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0], (one * two).sum(1)))
+    kept: Floats = rim[np.abs(bend) > STRAIGHT_DEG]
+    return kept
 
 
 def _reached(rim: Floats) -> Floats:

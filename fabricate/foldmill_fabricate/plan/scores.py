@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import CreasePattern
-from foldmill_fabricate.passes import Stroke
+from foldmill_fabricate.passes import Face, Stroke
 from foldmill_fabricate.toolpath import order, trails
 
 Floats = NDArray[np.float64]
@@ -18,25 +18,29 @@ STRAIGHT_DEG = 0.001
 """deg. Two creases that bend by less at a vertex are one straight line to a knife."""
 
 
-def held_back(pattern: CreasePattern, scored: Indices) -> set[int]:
-    """Return the interior vertices where at least two scored creases meet that are not one line.
+def held_back(pattern: CreasePattern, by_face: dict[Face, Indices]) -> set[int]:
+    """Return the interior vertices that all scores stop short of.
 
-    scored : edges scored on either face. There all scores stop short.
+    by_face : edges scored on each face. There at least two scored creases meet that are not one
+    groove: they bend, or lie on different faces, whose grooves must not touch.
     """
-    spokes: dict[int, list[float]] = {}
-    for a, b in pattern.edges[scored].tolist():
-        for tail, head in ((a, b), (b, a)):
-            step = pattern.vertices[head] - pattern.vertices[tail]
-            spokes.setdefault(tail, []).append(float(np.degrees(np.arctan2(step[1], step[0]))))
+    spokes: dict[int, list[tuple[Face, float]]] = {}
+    for face, edges in by_face.items():
+        for a, b in pattern.edges[edges].tolist():
+            for tail, head in ((a, b), (b, a)):
+                step = pattern.vertices[head] - pattern.vertices[tail]
+                angle = float(np.degrees(np.arctan2(step[1], step[0])))
+                spokes.setdefault(tail, []).append((face, angle))
     interior = set(pattern.interior_vertices.tolist())
-    return {v for v, angles in spokes.items() if v in interior and _meet(angles)}
+    return {v for v, own in spokes.items() if v in interior and not _is_one_groove(own)}
 
 
-def _meet(angles: list[float]) -> bool:
-    if len(angles) == 1:
-        return False
-    bend = abs((angles[0] - angles[1]) % 360 - 180)
-    return len(angles) > 2 or bend > STRAIGHT_DEG
+def _is_one_groove(spokes: list[tuple[Face, float]]) -> bool:
+    if len(spokes) == 1:
+        return True
+    (one, p), (two, q) = spokes[:2]
+    bend = abs((p - q) % 360 - 180)
+    return len(spokes) == 2 and one is two and bend <= STRAIGHT_DEG
 
 
 def strokes(

@@ -96,7 +96,7 @@ class Asked:
         """(E, 2) twice, mm: least and most that each end of a score stops short of its vertex.
 
         It stops short of interior vertices where at least two scored creases meet that are not one
-        straight line. Where two are nearly one line, either answer is right.
+        groove: one straight line on one face. Where two are nearly that, either answer is right.
         """
         setback = self.plan.material.score.setback
         bends = self._bends()
@@ -105,8 +105,9 @@ class Asked:
         return least[self.pattern.edges], most[self.pattern.edges]
 
     def _bends(self) -> Floats:
-        """Return for each vertex (V,) by how many degrees its scored creases miss one line."""
-        edges = self.pattern.edges[self.score_face != NOWHERE]
+        """Return for each vertex (V,) by how many degrees its scored creases miss one groove."""
+        scored = self.score_face != NOWHERE
+        edges = self.pattern.edges[scored]
         steps = self.spots[edges[:, 1]] - self.spots[edges[:, 0]]
         steps /= np.hypot(*steps.T)[:, None]
         count = np.bincount(edges.ravel(), minlength=len(self.spots))
@@ -115,7 +116,11 @@ class Asked:
         np.add.at(sums, edges[:, 1], -steps)
         # two unit vectors that miss one line by β add up to a vector of length 2·sin(β/2)
         miss = np.degrees(2 * np.arcsin(np.minimum(np.hypot(*sums.T) / 2, 1.0)))
-        bends = np.where(count > 2, 180.0, np.where(count == 2, miss, 0.0))
+        ends_of_reverse = np.bincount(
+            edges.ravel(), np.repeat(self.score_face[scored], 2), minlength=len(self.spots)
+        )
+        two_faces = (ends_of_reverse > 0) & (ends_of_reverse < count)
+        bends = np.where((count > 2) | two_faces, 180.0, np.where(count == 2, miss, 0.0))
         inner = np.zeros(len(self.spots), bool)
         inner[self.pattern.interior_vertices] = True
         result: Floats = np.where(inner, bends, 0.0)

@@ -61,12 +61,15 @@ def verify(
 ) -> Verification:
     """Prove that the programs draw the plan, and that the plan is the pattern's.
 
+    Errors that the plan itself reports (grooves that come too near) are findings here too.
+
     programs : bytes by file name, such as ``1-front-holes.hpgl``; names without ``.hpgl`` are left
     alone. fit : how a reverse lies whose programs were fitted to measured marks; those programs are
     not the recorded ones, so that only their drawing is compared.
     """
     proof = prove_programs(plan, programs, fit)
-    findings = _digest([*proof.findings, *prove_rule(plan, pattern)])
+    own = [finding for finding in plan.findings if finding.severity is Severity.ERROR]
+    findings = _digest([*own, *proof.findings, *prove_rule(plan, pattern)])
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
     return Verification(plan.title, findings, figures, lines)

@@ -135,9 +135,10 @@ def test_a_plan_with_an_error_of_its_own_is_written_and_told_but_not_sent(foldmi
     planned = foldmill("plan", "a.fold", "-o", "job")
     assert planned.code == 1
     assert "groove ends are wanted" in planned.out
+    assert foldmill("verify", "job").code == 1
     told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes")
     assert told.code == 2
-    assert "its plan says of itself" in told.err
+    assert "groove ends are wanted" in told.err
 
 
 def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:

@@ -170,6 +170,14 @@ def test_two_scores_in_one_line_run_through_their_vertex_as_one_stroke() -> None
     assert np.linalg.norm(line[1] - line[0]) == pytest.approx(100)
 
 
+def test_a_mountain_that_goes_on_as_a_valley_stops_short_between() -> None:
+    plan = make(square("MFVF"), material(), machine())
+    [front], [reverse] = score_strokes(plan, Face.FRONT), score_strokes(plan, Face.REVERSE)
+    gap = min(np.linalg.norm(a - b) for a in front for b in reverse)
+    assert gap == pytest.approx(1.5)
+    assert "vertex-rule" not in {finding.code for finding in plan.findings}
+
+
 def test_a_job_with_scores_on_one_face_is_one_pass_without_register() -> None:
     plan = make(square("MFMF"), material(), machine())
     [work] = plan.passes
@@ -205,6 +213,16 @@ def test_ties_hold_the_part_on_straight_edges_away_from_corners() -> None:
     drawn = sum(np.hypot(*np.diff(s.points, axis=0).T).sum() for s in outer)
     rim = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T).sum()
     assert drawn == pytest.approx(rim - sum(tie.width for tie in plan.ties))
+
+
+def test_a_straight_edge_in_many_pieces_still_carries_ties() -> None:
+    x = np.linspace(0, 60, 13)
+    points = np.vstack([np.column_stack([x, 0 * x]), np.column_stack([x, 0 * x + 60])])
+    rims = [[k + j, k + j + 1] for j in (0, 13) for k in range(12)]
+    edges = [*rims, [0, 13], [12, 25]]
+    plan = make(Fold(CreasePattern.from_lines(points, edges, "B" * 26)), material(), machine())
+    assert len(plan.ties) >= 3
+    assert len(plan.passes[0].setups) == 1
 
 
 def test_an_inner_cut_comes_before_the_outline() -> None:

@@ -1,0 +1,49 @@
+"""Machines that differ in their line or their motors, and a simulator to talk to by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from foldmill import installed
+from foldmill_fabricate.hooks import MACHINES
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.plotter.simulator import devices
+from foldmill_fabricate.plotter.simulator.machine import Simulator
+
+
+@pytest.fixture
+def machine() -> Callable[..., Machine]:
+    """A generic cutter with other serial or motion settings."""
+    base: Machine = installed().get(MACHINES, "machine", "generic-hpgl-600")
+
+    def changed(**settings: Any) -> Machine:
+        moving = {
+            key: settings.pop(key)
+            for key in list(settings)
+            if key in type(base.motion).model_fields
+        }
+        return base.model_copy(
+            update={
+                "serial": base.serial.model_copy(update=settings),
+                "motion": base.motion.model_copy(update=moving),
+            }
+        )
+
+    return changed
+
+
+@pytest.fixture
+def plugged() -> Iterator[Callable[[Simulator], str]]:
+    """Put simulators behind sim:// addresses for one test."""
+    urls: list[str] = []
+
+    def plug(simulator: Simulator) -> str:
+        urls.append(devices.plug(f"bench-{len(urls)}", simulator))
+        return urls[-1]
+
+    yield plug
+    for url in urls:
+        devices.unplug(url)
