@@ -23,7 +23,9 @@ SLACK = 3.0
 CAUTION = 1.25
 """How many times longer than modelled a machine is taken to need where it cannot say."""
 _LONGEST_NAP = 0.25
-"""s between two questions while only the motion in flight is waited for."""
+"""s between two questions."""
+_NAP = 0.02
+"""Share of the time without a change that is waited before the next question."""
 
 
 class Pace(Protocol):
@@ -91,7 +93,8 @@ class Asked:
         """Instructions that had left the buffer then."""
         self._asked: int | None = None
         """Instructions written before the open question."""
-        self._progress = self._asked_when = session.clock.now()
+        self._progress = self._changed = self._asked_when = session.clock.now()
+        """When an instruction was last seen to leave the buffer; when an answer last differed."""
 
     @property
     def ahead(self) -> float:
@@ -162,6 +165,8 @@ class Asked:
                 f"The plotter answered {answer!r} where it should have told its free bytes. "
                 "Something disturbs the line; check the cable and the baud rate."
             )
+        if self._free_at != self._asked or str(self._free) != answer:
+            self._changed = self._session.clock.now()
         self._free, self._free_at = min(int(answer), self._session.buffer), self._asked
         self._asked = None
         gone = self._ledger.bytes[self._free_at] - (self._session.buffer - self._free)
@@ -183,11 +188,14 @@ class Asked:
         )
 
     def _nap(self, number: int) -> None:
-        """Do not ask hundreds of times while only a long motion is waited for."""
-        length = len(self._ledger.parts[number].data)
-        if length + self._reserve <= self._bound and not self._fits(number):
-            over = self._ledger.in_flight(self._done, number + 1) - IN_FLIGHT
-            self._session.clock.sleep(min(_LONGEST_NAP, over / 2))
+        """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
+        if self._fits(number):
+            return
+        clock, length = self._session.clock, len(self._ledger.parts[number].data)
+        nap = _NAP * (clock.now() - self._changed)
+        if length + self._reserve <= self._bound:
+            nap = (self._ledger.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
+        clock.sleep(min(_LONGEST_NAP, nap))
 
 
 class Modelled:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
+from xml.sax.saxutils import escape
 
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.machines import Machine
@@ -42,7 +43,7 @@ def svg(strokes: list[Drawn], machine: Machine, title: str) -> bytes:
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
-        f"<title>{title}</title>",
+        f"<title>{escape(title)}</title>",
         f'<path d="M0,0 {width:g},0 {width:g},{height:g} 0,{height:g} Z" style="{_SHEET}"/>',
     ]
     for number, (name, members) in enumerate(groups(strokes).items()):
