@@ -23,7 +23,7 @@ def _place(number: int, place: Any) -> list[float]:
     fits = isinstance(place, list) and len(place) in {2, 3}
     if not fits or not all(_is_finite(x) for x in place):
         raise UnreadableFile(
-            f"Vertex {number} must be 2 or 3 numbers within a billion, not {_brief(place)}."
+            f"Vertex {number} must be 2 or 3 numbers within a billion, not {brief(place)}."
         )
     return [float(x) for x in place] + [0.0] * (3 - len(place))
 
@@ -38,13 +38,14 @@ def array(frame: Frame, key: str, count: int | None = None) -> list[Any]:
     """Return a list of a frame, of ``count`` entries if given; raises UnreadableFile."""
     value = frame.get(key)
     if not isinstance(value, list):
-        raise UnreadableFile(f"{key} must be a list, not {_brief(value)}.")
+        raise UnreadableFile(f"{key} must be a list, not {brief(value)}.")
     if count is not None and len(value) != count:
         raise UnreadableFile(f"{key} has {len(value)} entries for {count} {key.split('_')[0]}.")
     return value
 
 
-def _brief(value: object) -> str:
+def brief(value: object) -> str:
+    """Return a value as it stands in the file, cut short for a sentence."""
     text = repr(value)
     return text if len(text) <= 40 else text[:37] + "..."
 
@@ -92,11 +93,11 @@ def _loops(frame: Frame, kind: str, key: str, least: int, vertices: int) -> list
             is_index = isinstance(vertex, int) and not isinstance(vertex, bool)
             if not is_index or not 0 <= vertex < vertices:
                 raise UnreadableFile(
-                    f"The {kind} {number} names the vertex {_brief(vertex)}, but the file has "
+                    f"The {kind} {number} names the vertex {brief(vertex)}, but the file has "
                     f"vertices 0 to {vertices - 1}."
                 )
         if len(set(loop)) < len(loop):
-            raise UnreadableFile(f"The {kind} {number} meets one vertex twice: {_brief(loop)}.")
+            raise UnreadableFile(f"The {kind} {number} meets one vertex twice: {brief(loop)}.")
     return [list(loop) for loop in loops]
 
 
@@ -108,7 +109,7 @@ def _angles(frame: Frame, count: int) -> list[float | None]:
     angles = array(frame, key, count)
     for edge, angle in enumerate(angles):
         if angle is not None and not _is_finite(angle):
-            raise UnreadableFile(f"The fold angle of edge {edge} is {_brief(angle)}, no number.")
+            raise UnreadableFile(f"The fold angle of edge {edge} is {brief(angle)}, no number.")
     return angles
 
 
@@ -124,7 +125,7 @@ def _letters(
         for edge, letter in enumerate(letters):
             if not isinstance(letter, str) or len(letter) != 1 or letter not in _LETTERS:
                 raise UnreadableFile(
-                    f"The assignment of edge {edge} is {_brief(letter)}, "
+                    f"The assignment of edge {edge} is {brief(letter)}, "
                     f"not one of {' '.join(_LETTERS)}."
                 )
         return letters

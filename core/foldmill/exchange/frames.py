@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from foldmill.errors import UnreadableFile
-from foldmill.exchange.elements import coordinates
+from foldmill.exchange.elements import brief, coordinates
 from foldmill.exchange.json_text import Frame
 
 PATTERN, FOLDED, OTHERS = 0, 1, 2
@@ -34,7 +34,7 @@ def resolved(frames: list[Frame], number: int) -> Frame:
         parent = _parent(frame)
         if parent is None or not 0 <= parent < len(frames) or len(chain) > len(frames):
             raise UnreadableFile(
-                f"Frame {number} inherits from frame {frame.get('frame_parent')!r}, which is not "
+                f"Frame {number} inherits from frame {brief(frame.get('frame_parent'))}, which is not "
                 f"there, or from itself."
             )
         frame = frames[parent]

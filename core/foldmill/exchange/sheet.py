@@ -10,7 +10,7 @@ import numpy as np
 from foldmill import planar
 from foldmill.errors import UnreadableFile
 from foldmill.exchange import cuts
-from foldmill.exchange.elements import array, coordinates, faces_of, graph_of
+from foldmill.exchange.elements import array, brief, coordinates, faces_of, graph_of
 from foldmill.exchange.graph import Graph, is_order, numbered, side_faces
 from foldmill.exchange.json_text import Frame
 from foldmill.exchange.keys import ADDED, CUT, DERIVED, JOIN, MILLIMETRES, OF, POLYGON, WRITTEN
@@ -93,7 +93,9 @@ def scale(frame: Frame, notes: list[str]) -> float:
         return 1.0
     if not isinstance(unit, str) or unit not in MILLIMETRES:
         known = ", ".join(MILLIMETRES)
-        raise UnreadableFile(f"The frame_unit {unit!r} is none of the format's units: {known}.")
+        raise UnreadableFile(
+            f"The frame_unit {brief(unit)} is none of the format's units: {known}."
+        )
     if unit != "mm":
         notes.append(f"The file is in {unit}; its coordinates are converted to millimetres.")
     return MILLIMETRES[unit]
@@ -219,5 +221,5 @@ def _marks_fit(graph: Graph, added: list[Any], polygon: list[Any]) -> bool:
         and len(polygon) == len(graph.faces) > 0
         and all(len(face) == 3 for face in graph.faces)
         and all(isinstance(number, int) for number in polygon)
-        and set(polygon) == set(range(max(polygon) + 1))
+        and sorted(set(polygon)) == list(range(len(set(polygon))))
     )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from foldmill import Assignment, CreasePattern, Fold, FoldedForm
+from foldmill import Assignment, CreasePattern, Fold, FoldedForm, Symmetry
 from foldmill.check import check
 from foldmill.exchange import read, write
 from foldmill_plugins.rotational import DESIGN as ROTATIONAL
@@ -150,6 +150,14 @@ def test_a_file_asked_for_triangle_by_triangle_says_which_edges_were_added() -> 
     assert same(again.pattern, fold.pattern)
     assert json.loads(write(again))["edges_x:name"] == [*"abcdefg"]
     assert write(again, triangulated=True) == text
+
+
+def test_triangles_that_a_symmetry_names_stay_triangles() -> None:
+    fold = replace(read(chiral()), symmetry=Symmetry(1, np.array([1, 3]), True))
+    again = read(write(fold))
+    assert same(again.pattern, fold.pattern)
+    assert again.symmetry is not None
+    assert again.symmetry.wedge.tolist() == [1, 3]
 
 
 @pytest.mark.parametrize(
