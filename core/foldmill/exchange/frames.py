@@ -34,8 +34,8 @@ def resolved(frames: list[Frame], number: int) -> Frame:
         parent = _parent(frame)
         if parent is None or not 0 <= parent < len(frames) or len(chain) > len(frames):
             raise UnreadableFile(
-                f"Frame {number} inherits from frame {brief(frame.get('frame_parent'))}, which is not "
-                f"there, or from itself."
+                f"Frame {number} inherits from frame {brief(frame.get('frame_parent'))}, which is "
+                f"not there, or from itself."
             )
         frame = frames[parent]
         chain.append(frame)

@@ -143,9 +143,8 @@ def test_no_damage_to_a_file_gets_past_a_sentence() -> None:
             _damage(data, rng)
         try:
             fold = read(json.dumps(data))
-        except UnreadableFile as refusal:
+        except UnreadableFile:
             refused += 1
-            assert len(str(refusal)) < 400
         else:
             check(fold)
             written = write(fold)
