@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import ezdxf
+import ezdxf.filemanagement
 import numpy as np
 import pytest
 from ezdxf import bbox
@@ -53,7 +53,7 @@ def test_hp2xx_reads_the_programs_extent_to_one_unit(name: str, tmp_path: Path) 
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_the_drawings_are_sound_metric_and_true_to_size(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(DRAWINGS[name])
-    drawing = ezdxf.readfile(tmp_path / name)
+    drawing = ezdxf.filemanagement.readfile(tmp_path / name)
     assert drawing.dxfversion == "AC1015"
     assert drawing.header["$INSUNITS"] == 4
     assert not drawing.audit().has_errors
