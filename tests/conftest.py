@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from difflib import unified_diff
 from pathlib import Path
 
 import pytest
@@ -31,7 +32,10 @@ class Golden:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
         assert path.exists(), f"no golden {name}: run `make goldens` and look at it"
-        assert content == path.read_bytes(), f"{name} differs from its golden"
+        difference = unified_diff(
+            path.read_text("utf-8").splitlines(), content.decode().splitlines(), "golden", "now"
+        )
+        assert content == path.read_bytes(), f"{name} is another:\n" + "\n".join(difference)
 
 
 @pytest.hookimpl(trylast=True)
