@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -11,11 +12,15 @@ from stools import ONE_TOOL, PENS, machine, material, stool, stool_plan
 
 from foldmill import Assignment
 from foldmill_fabricate import folder
+from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
 from foldmill_fabricate.sheet import placed
+
+if TYPE_CHECKING:
+    from conftest import Golden
 
 
 @pytest.fixture(scope="module", params=[ONE_TOOL, PENS])
@@ -106,3 +111,9 @@ def test_a_new_plan_leaves_no_program_of_the_old_one(tmp_path: Path) -> None:
     folder.write(stool(), stool_plan(ONE_TOOL), tmp_path, ["hpgl"])
     folder.write(stool(), stool_plan(PENS), tmp_path, ["hpgl"])
     assert {path.name for path in tmp_path.glob("*.hpgl")} == {"front.hpgl", "reverse.hpgl"}
+
+
+@pytest.mark.parametrize("slug", [ONE_TOOL, PENS])
+def test_the_stools_programs_are_as_they_were(slug: str, golden: Golden) -> None:
+    for name, program in hpgl.write(stool_plan(slug), stool()).items():
+        golden.check(f"stool-n8/{slug}/{name}", program)

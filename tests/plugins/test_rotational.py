@@ -1,0 +1,102 @@
+"""Plain rotational forms: their presets, their symmetry, their refusals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from foldmill import Fold, InvalidParameters
+from foldmill.check.intersection import penetrations
+from foldmill_plugins.rotational import DESIGN, RotationalParams
+
+PRESETS = pytest.mark.parametrize("name", DESIGN.presets)
+
+
+def space(fold: Fold) -> np.ndarray:
+    assert fold.folded is not None
+    return fold.folded.vertices
+
+
+@PRESETS
+def test_a_preset_is_a_form_worth_folding(name: str) -> None:
+    fold = DESIGN.run(DESIGN.preset(name))
+    width, depth, height = np.ptp(space(fold), axis=0)
+    assert height > 0.2 * max(width, depth)
+    assert np.ptp(fold.pattern.vertices, axis=0).max() <= 300
+    assert fold.pattern.edge_lengths.min() >= 15
+    assert len(penetrations(space(fold), fold.pattern.edges, fold.pattern.faces)) == 0
+    assert "U" not in fold.pattern.letters()
+
+
+@PRESETS
+def test_folding_stretches_nothing(name: str) -> None:
+    fold = DESIGN.run(DESIGN.preset(name))
+    ends = space(fold)[fold.pattern.edges]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    assert np.abs(lengths - fold.pattern.edge_lengths).max() <= 1e-12 * fold.pattern.size
+
+
+def test_what_comes_without_a_wish_passes_through_nothing() -> None:
+    fold = DESIGN.run()
+    assert len(penetrations(space(fold), fold.pattern.edges, fold.pattern.faces)) == 0
+
+
+def test_turning_phi_towards_ninety_unfolds_the_sheet() -> None:
+    values = DESIGN.preset("bowl-n8").model_dump()
+    heights = [
+        float(np.ptp(space(DESIGN.run(values | {"phi": phi}))[:, 2])) for phi in (80, 85, 90)
+    ]
+    assert heights[0] > heights[1] > heights[2] == 0
+
+
+def test_every_point_adds_a_ring_of_triangles() -> None:
+    assert isinstance(DESIGN.preset("bowl-n8"), RotationalParams)
+    faces = [
+        len(
+            DESIGN.run(
+                {"n": 5, "points": {i: {"a": 20.0 * i} for i in range(1, last + 1)}}
+            ).pattern.faces
+        )
+        for last in (2, 3, 4)
+    ]
+    assert faces == [10, 20, 30]
+
+
+FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: {"a": 118}}
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"n": 2}, r"n: Input should be greater than or equal to 3 \(got 2\)"),
+        ({"n": 73}, "n: Input should be less than or equal to 72"),
+        ({"n": 6.5}, "n: Input should be a valid integer"),
+        ({"n": True}, "n: Input should be a valid integer"),
+        ({"phi": -0.1}, "phi: Input should be greater than or equal to 0"),
+        ({"phi": 180.1}, "phi: Input should be less than or equal to 180"),
+        ({"phi": float("nan")}, "phi: Input should be"),
+        ({"phi": float("inf")}, "phi: Input should be"),
+        ({"points": {1: {"a": 40}}}, "points: Dictionary should have at least 2 items"),
+        ({"points": {}}, "points: Dictionary should have at least 2 items"),
+        ({"points": {1: {"a": 40}, 3: {"a": 60}}}, "points: the points must be numbered 1, 2, 3"),
+        ({"points": FOUR | {2: {"a": 0}}}, r"points\.2\.a: Input should be greater than 0"),
+        ({"points": FOUR | {2: {"a": -62}}}, r"points\.2\.a: Input should be greater than 0"),
+        ({"points": FOUR | {2: {"a": float("nan")}}}, r"points\.2\.a: Input should be a finite"),
+        ({"points": FOUR | {2: {"a": 62, "branch": 0}}}, r"points\.2\.branch: .* -1 or 1"),
+        ({"points": FOUR | {2: {"r": 62, "z": 3}}}, r"points\.2\.a: Field required"),
+        (
+            {"points": FOUR | {3: {"a": 40}}},
+            "Point 3 must lie farther out than point 1: a = 40 mm, but point 1 is at 40 mm",
+        ),
+        ({"points": FOUR | {4: {"a": 61}}}, "Point 4 must lie farther out than point 2"),
+        (
+            {"n": 6, "phi": 90, "points": FOUR | {2: {"a": 40 / np.cos(np.pi / 6)}}},
+            r"Point 3 can turn freely about point 1 .* points\.3\.gamma, in degrees",
+        ),
+    ],
+)
+def test_wrong_parameters_are_refused_by_name(values: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(InvalidParameters, match=sentence):
+        DESIGN.run(values)
