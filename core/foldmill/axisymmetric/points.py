@@ -34,9 +34,11 @@ Point = TypeVar("Point", bound=Params)
 
 
 def consecutive(points: Mapping[int, Point]) -> Mapping[int, Point]:
-    """Refuse points that are not numbered 1, 2, 3 …"""
+    """Refuse points that are not numbered 1, 2, 3 …, or fewer than two."""
     if list(points) != list(range(1, len(points) + 1)):
         raise ValueError(f"the points must be numbered 1, 2, 3 …, not {sorted(points)}")
+    if len(points) < 2:
+        raise ValueError("a facet needs points 1 and 2 beside the centre; add the missing ones")
     return points
 
 

@@ -7,6 +7,11 @@ P_A, P_i and P_B meet (thesis 4.1.1): with τ = |A t|, c the foot of p_i on AB, 
     (T − P_A)·(P_B − P_A) = (2 L τ − L² + |P_A P_B|²) / 2      (T − P_A)·(P_i − P_A) = τ c
 
 so T's foot in the plane is linear in τ, and the square of its height above it is quadratic.
+
+Where |P_A P_B| < L there is always a t with a T: fold the blank along the bisector of its angle at
+p_i, and its ends come as near as ||A p_i| − |B p_i||, which is nearer than P_A and P_B ever are.
+The flap's triangles (A, p_i, t) and (t, p_i, B) cannot turn over in the pattern either: p_i lies
+strictly beside the line, and t strictly between A and B.
 """
 
 from __future__ import annotations
