@@ -7,7 +7,7 @@ validation and documentation follow from that one place.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Annotated, Any, Generic, TypeVar
 
@@ -15,6 +15,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from foldmill.errors import InvalidParameters, InvalidPattern, UnknownName
 from foldmill.folded import FoldedForm
+from foldmill.handle import Handle
+from foldmill.motion import Motion
 from foldmill.pattern import CreasePattern, Indices
 
 Length = Annotated[float, Field(gt=0, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
@@ -57,6 +59,10 @@ class Fold:
     pattern: CreasePattern
     folded: FoldedForm | None = None
     symmetry: Symmetry | None = None
+    motions: Mapping[str, Motion] = field(default_factory=dict)
+    """Ways the form moves, by name."""
+    handles: tuple[Handle, ...] = ()
+    """Points that a person can drag."""
     meta: Mapping[str, Any] = field(default_factory=dict)
     """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys."""
 
@@ -110,7 +116,7 @@ class Design(Generic[P]):
         stated = params.model_dump(mode="json")
         record = {"slug": self.slug, "version": self.version, "params": stated}
         meta = {"title": self.title, **fold.meta, "design": record}
-        return Fold(fold.pattern, fold.folded, fold.symmetry, meta)
+        return replace(fold, meta=meta)
 
 
 def explain(error: ValidationError) -> str:

@@ -68,7 +68,7 @@ def _read(data: Frame) -> Fold:
         meta["title"] = frame["file_title"]
     if isinstance(frame.get(DESIGN), dict):
         meta["design"] = kept["frame"].pop(DESIGN)
-    return Fold(sheet.pattern, folded, _symmetry(frame, sheet), meta)
+    return Fold(sheet.pattern, folded, _symmetry(frame, sheet), meta=meta)
 
 
 def _kept(other: Frame, sheet: Sheet, pattern: Frame) -> Frame:
