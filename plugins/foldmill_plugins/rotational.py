@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from pydantic import Field
 
 from foldmill import Angle, Count, Design, Fold, Params, hookimpl
-from foldmill.axisymmetric import rosette, strip
+from foldmill.axisymmetric import handles, rosette, strip, unfold
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 
 
@@ -38,7 +40,10 @@ def generate(params: RotationalParams) -> Fold:
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    return rosette.fold(rosette.assemble(rosette.HalfWedge.of(solved)), wedge_decides=True)
+    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    fold = rosette.fold(rose, wedge_decides=True)
+    opening = unfold.motion(rose, params.n, params.phi, params.points)
+    return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
 
 
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
