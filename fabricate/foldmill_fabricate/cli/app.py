@@ -11,7 +11,7 @@ import sys
 import typer
 
 from foldmill.errors import FoldmillError
-from foldmill_fabricate.cli import catalogue, designing, making, running
+from foldmill_fabricate.cli import catalogue, designing, making, moving, running
 
 app = typer.Typer(
     name="foldmill",
@@ -24,6 +24,7 @@ app = typer.Typer(
 )
 catalogue.add_to(app)
 designing.add_to(app)
+moving.add_to(app)
 making.add_to(app)
 running.add_to(app)
 

@@ -103,6 +103,10 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["verify", "nowhere"], "nowhere"),
         (["send", "nowhere", "--port", "sim://generic-hpgl-600"], "nowhere"),
         (["simulate"], "--pty LINK or --tcp PORT"),
+        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .gif or .webp"),
+        (["motion", "a.fold", "--motion", "dance", "-o", "m.gif"], "There is no motion 'dance'"),
+        (["motion", "a.fold", "--steps", "0", "-o", "m.gif"], "--steps must be from 1"),
+        (["motion", "tuck", "-o", "m.gif"], "no motion that is known"),
         (["show", "a.fold", "-o", "a.gif"], "a picture is written as .png"),
     ],
 )
@@ -117,6 +121,15 @@ def test_wrong_input_gets_one_sentence_and_leaves_nothing_behind(
     assert sentence in told.err
     assert "Traceback" not in told.err
     assert sorted(Path().iterdir()) == before
+
+
+def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
+    assert foldmill("motion", "rotational", "--phi", "70", "--steps", "4", "-o", "m.fold").code == 0
+    told = json.loads(Path("m.fold").read_text())
+    assert told["file_classes"] == ["animation"]
+    assert len(told["file_frames"]) == 1 + 5
+    assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.gif").code == 0
+    assert Path("m.gif").read_bytes().startswith(b"GIF89a")
 
 
 def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
