@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from pydantic import Field, ValidationError
@@ -10,9 +13,11 @@ from foldmill import (
     CreasePattern,
     Design,
     Fold,
+    ImpossibleGeometry,
     InvalidParameters,
     Length,
     Params,
+    PluginFault,
     UnknownName,
 )
 
@@ -92,6 +97,44 @@ def test_every_fault_gets_its_sentence() -> None:
 def test_an_unknown_preset_is_answered_with_the_known_ones() -> None:
     with pytest.raises(UnknownName, match=r"no preset of diagonal 'a5'. There are: a4\."):
         DIAGONAL.preset("a5")
+
+
+def nothing(params: StripParams) -> Any:
+    return None
+
+
+def divided(params: StripParams) -> Fold:
+    raise ZeroDivisionError("by\nnothing")
+
+
+def leaving(params: StripParams) -> Fold:
+    raise SystemExit(3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"generate": nothing}, "its generate returns NoneType, not a Fold"),
+        ({"generate": divided}, "fails with ZeroDivisionError: by nothing. Other parameters may"),
+        ({"generate": leaving}, "fails with SystemExit: 3"),
+        ({"generate": None}, "its generate is None, which is no function"),
+        ({"params": dict}, "its params are <class 'dict'>, which is no kind of Params"),
+        ({"title": None}, "its title is None, which is no text"),
+        ({"presets": None}, "its presets are no mapping"),
+    ],
+)
+def test_a_family_that_breaks_is_named(changes: dict[str, Any], sentence: str) -> None:
+    broken: Design[Any] = replace(DIAGONAL, **changes)
+    with pytest.raises(PluginFault, match=f"The family 'diagonal' is broken: .*{sentence}"):
+        broken.run()
+
+
+def test_what_a_family_refuses_stays_its_own_sentence() -> None:
+    def refusing(params: StripParams) -> Fold:
+        raise ImpossibleGeometry("Point 3 has no place.")
+
+    with pytest.raises(ImpossibleGeometry, match=r"^Point 3 has no place\.$"):
+        replace(DIAGONAL, generate=refusing).run()
 
 
 def test_parameters_cannot_be_changed() -> None:
