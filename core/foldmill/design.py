@@ -49,7 +49,7 @@ class Params(BaseModel):
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:
-    """The rotational symmetry of a fold, as the intersection check may use it."""
+    """The rotational symmetry of a fold about the z axis, as the intersection check may use it."""
 
     order: int
     """N: the form maps to itself when turned by 360/N degrees."""
@@ -57,7 +57,8 @@ class Symmetry:
     """(k,) faces of one half wedge; mirrored and turned they make the whole form."""
     one_sided: bool
     """True where every signed radius has one sign, so that no facet crosses the axis. Only then do
-    the half wedge's own facets decide whether the whole form is free of penetration."""
+    the half wedge's own facets decide whether the whole form is free of penetration. The half wedge
+    lies between the azimuths 0 and 180/N degrees, or opposite; checked before it is believed."""
 
 
 @dataclass(frozen=True, eq=False)
