@@ -140,8 +140,9 @@ def _options(node: Schema, defs: Schema, value: Any) -> Iterator[Schema]:
             {**target, **{k: v for k, v in node.items() if k != "$ref"}}, defs, value
         )
     elif "anyOf" in node or "oneOf" in node:
+        shared = {"description": node["description"]} if "description" in node else {}
         for each in node["anyOf"] if "anyOf" in node else node["oneOf"]:
-            yield from _options(each, defs, value)
+            yield from _options(shared | each, defs, value)
     elif value is _NO_VALUES or _fits(node, value):
         yield node
 

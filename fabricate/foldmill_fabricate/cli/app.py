@@ -35,10 +35,11 @@ def main() -> None:
         app()
     except FoldmillError as error:
         _stop(str(error))
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError, PermissionError) as error:
-        _stop(f"{error.filename}: {(error.strerror or 'cannot be read').lower()}.")
     except BrokenPipeError:
         sys.stderr.close()  # the reader of our output has gone; that is no fault
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        _stop(f"{place}{(error.strerror or str(error)).lower()}.")
 
 
 def _stop(sentence: str) -> None:
