@@ -27,10 +27,18 @@ from foldmill.handle import Handle
 from foldmill.motion import Motion
 from foldmill.pattern import CreasePattern, Indices
 
-Length = Annotated[float, Field(gt=0, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
-"""A length in mm, positive and finite."""
-Coordinate = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
-"""A signed position in mm, finite."""
+MOST_MM = 1e5
+"""mm. Nothing in a pattern lies farther out: 100 m of paper, far below where squares overflow."""
+Length = Annotated[
+    float, Field(gt=0, lt=MOST_MM, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})
+]
+"""A length in mm, positive and below 100 m. A field's own ``ge`` and ``le`` hold as well; its
+``gt`` and ``lt`` would not."""
+Coordinate = Annotated[
+    float, Field(gt=-MOST_MM, lt=MOST_MM, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})
+]
+"""A signed position in mm, within 100 m. A field's own ``ge`` and ``le`` hold as well; its ``gt``
+and ``lt`` would not."""
 Angle = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "deg"})]
 """An angle in degrees, finite."""
 Count = Annotated[int, Field(strict=True, gt=0)]

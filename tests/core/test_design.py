@@ -10,6 +10,7 @@ import pytest
 from pydantic import Field, ValidationError
 
 from foldmill import (
+    Coordinate,
     CreasePattern,
     Design,
     Fold,
@@ -25,6 +26,8 @@ from foldmill import (
 class StripParams(Params):
     side: Length = Field(default=100.0, le=2000)
     """Side of the square."""
+    shift: Coordinate = Field(default=0.0, ge=-50)
+    """Where the square begins."""
     folds: bool = True
     """Whether the diagonal folds."""
 
@@ -54,7 +57,7 @@ def test_a_run_records_which_design_and_parameters_it_was() -> None:
     assert fold.meta["design"] == {
         "slug": "diagonal",
         "version": "1",
-        "params": {"side": 50.0, "folds": True},
+        "params": {"side": 50.0, "shift": 0.0, "folds": True},
     }
 
 
@@ -72,11 +75,28 @@ def test_the_schema_states_unit_bounds_and_meaning() -> None:
     assert side["description"] == "Side of the square."
 
 
+class Plain(Params):
+    side: Length = 10.0
+    """A length with no bounds of its own."""
+    shift: Coordinate = 0.0
+    """A coordinate with no bounds of its own."""
+
+
+@pytest.mark.parametrize(
+    "values", [{"side": 1e5}, {"side": 1e200}, {"shift": 1e5}, {"shift": -1e5}, {"side": 0}]
+)
+def test_no_length_and_no_coordinate_reaches_a_hundred_metres(values: dict[str, float]) -> None:
+    with pytest.raises(ValidationError):
+        Plain.model_validate(values)
+
+
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
         ({"side": 0}, r"side: Input should be greater than 0 \(got 0\)\."),
         ({"side": 3000}, r"side: Input should be less than or equal to 2000 \(got 3000\)\."),
+        ({"shift": -51}, r"shift: Input should be greater than or equal to -50 \(got -51\)\."),
+        ({"shift": 1e200}, r"shift: Input should be less than 100000 \(got 1e\+200\)\."),
         ({"side": float("nan")}, "side: Input should be a finite number"),
         ({"side": "long"}, r"side: .* valid number.* \(got 'long'\)\."),
         ({"width": 3}, r"width: Extra inputs are not permitted \(got 3\)\."),

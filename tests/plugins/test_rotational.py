@@ -90,6 +90,23 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
             {"points": FOUR | {3: {"a": 40}}},
             "Point 3 must lie farther out than point 1: a = 40 mm, but point 1 is at 40 mm",
         ),
+        ({"points": FOUR | {4: {"a": 1e200}}}, r"points\.4\.a: Input should be less than 100000"),
+        (
+            {"points": FOUR | {1: {"a": 1e-9}}},
+            r"Point 1 lies on the centre: 1e-09 mm are less than",
+        ),
+        (
+            {"points": FOUR | {3: {"a": float(np.nextafter(40, 41))}}},
+            r"Point 3 lies on point 1: 7.1e-15 mm are less than",
+        ),
+        (
+            {"n": 72, "points": FOUR | {1: {"a": 1.1e-6}, 2: {"a": 1.2e-6}}},
+            "Point 2 lies on point 1: 1.1e-07 mm are less than",
+        ),
+        (
+            {"points": {i: {"a": 10.0 * i} for i in range(1, 202)}},
+            "points: a half wedge takes 200 points at most, not 201; leave out some",
+        ),
         ({"points": FOUR | {4: {"a": 61}}}, "Point 4 must lie farther out than point 2"),
         (
             {"n": 6, "phi": 90, "points": FOUR | {2: {"a": 40 / np.cos(np.pi / 6)}}},
