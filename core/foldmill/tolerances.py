@@ -11,6 +11,10 @@ FLAT_DEG: Final = 1e-4
 CLOSED_DEG: Final = 1e-4
 """deg. Nearer to ±180 than this the sign of a fold angle is noise, and the family states it."""
 
+NEARLY_CLOSED_DEG: Final = 1e-2
+"""deg. How far φ is opened from 0 or 180 to see to which side a crease closes. A hundred times
+CLOSED_DEG, so that the sign is no noise there; so little that no other crease changes its own."""
+
 ANGLE_SUM_RAD: Final = 1e-11
 """rad. Largest deviation of an interior vertex's angle sum from 2π (solved patterns: 1e-14)."""
 

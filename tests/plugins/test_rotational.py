@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from foldmill import Fold, InvalidParameters
+from foldmill.check import assignment
 from foldmill.check.intersection import penetrations
 from foldmill_plugins.rotational import DESIGN, RotationalParams
 
@@ -49,6 +50,19 @@ def test_turning_phi_towards_ninety_unfolds_the_sheet() -> None:
         float(np.ptp(space(DESIGN.run(values | {"phi": phi}))[:, 2])) for phi in (80, 85, 90)
     ]
     assert heights[0] > heights[1] > heights[2] == 0
+
+
+@PRESETS
+@pytest.mark.parametrize(("shut", "ajar"), [(0, 0.02), (1e-5, 0.02), (180, 179.98)])
+def test_a_crease_that_phi_closes_keeps_the_sign_it_had_before(
+    name: str, shut: float, ajar: float
+) -> None:
+    values = DESIGN.preset(name).model_dump()
+    closed, before = (DESIGN.run(values | {"phi": phi}) for phi in (shut, ajar))
+    assert np.abs(closed.pattern.fold_angles).max() == 180
+    assert closed.pattern.letters() == before.pattern.letters()
+    assert "U" not in closed.pattern.letters()
+    assert not assignment(closed).findings
 
 
 def test_every_point_adds_a_ring_of_triangles() -> None:
