@@ -103,6 +103,17 @@ def outside(bound: Bound, is_integer: bool) -> float:
     )
 
 
+def inside(bound: Bound, is_integer: bool) -> float:
+    """Return the number nearest to a bound that it allows."""
+    if not bound.is_exclusive:
+        return bound.value
+    return (
+        bound.value - bound.side
+        if is_integer
+        else math.nextafter(bound.value, -bound.side * math.inf)
+    )
+
+
 def placed(values: dict[str, Any], path: Path, new: Any) -> dict[str, Any]:
     """Return a copy of the values with one of them changed."""
     changed = deepcopy(values)
