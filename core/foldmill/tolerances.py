@@ -22,6 +22,19 @@ ISOMETRY: Final = 1e-12
 """Largest difference between an edge's flat and folded length, as a share of the sheet's size. Per
 edge it would punish slivers: they reach 6e-11 of themselves at 3e-14 of the sheet."""
 
+ANGLE_SUM_READ_RAD: Final = 1e-5
+"""rad. As ANGLE_SUM_RAD, for a form read from a file. Coordinates of four decimals (0.1 µm) spread
+over facets of a centimetre turn their angles by so much (measured: 8e-6); a hand cannot fold it."""
+
+ISOMETRY_READ: Final = 1e-6
+"""As ISOMETRY, for a form read from a file: four decimals of a sheet of 100 mm (measured: 5e-7)."""
+
+FOLD_ANGLE_READ_DEG: Final = 1e-3
+"""deg. Largest gap between stated and measured fold angle in a file (four decimals: 3.5e-4)."""
+
+SEAM_READ_MM: Final = 1e-3
+"""mm. Largest gap of a seam in a file; coordinates of four decimals leave 2e-4."""
+
 PENETRATION: Final = 1e-7
 """Share of the form's size that two facets must pass through each other to penetrate. Verdicts on
 1.2 million forms were the same from 1e-7 to 1e-13."""

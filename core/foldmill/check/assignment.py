@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from foldmill.check.limits import limits
 from foldmill.check.report import Figure, Report, counted, edge_name, not_checked
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.folded import FoldedForm, fold_angles
 from foldmill.pattern import Assignment, CreasePattern, Flags, Floats
-from foldmill.tolerances import CLOSED_DEG, COINCIDENT_MM, FLAT_DEG
+from foldmill.tolerances import CLOSED_DEG
 
 _TURN = 360.0
 
@@ -30,8 +31,9 @@ def assignment(fold: Fold) -> Report:
     measured = fold_angles(fold.folded.vertices, pattern.edges, pattern.faces, pattern.edge_faces)
     closed = open_edges & (np.abs(measured) >= 180.0 - CLOSED_DEG)
     findings = (*_unassigned(pattern, open_edges & ~closed), *_unsigned(pattern, closed))
-    parts = [Report(findings, counts), _angles(pattern, measured), _seams(fold.folded)]
-    return Report.joined(parts)
+    allowed = limits(fold)
+    angles = _angles(pattern, measured, allowed.fold_angle_deg)
+    return Report.joined([Report(findings, counts), angles, _seams(fold.folded, allowed.seam_mm)])
 
 
 def _unassigned(pattern: CreasePattern, edges: Flags) -> tuple[Finding, ...]:
@@ -64,7 +66,7 @@ def _unsigned(pattern: CreasePattern, edges: Flags) -> tuple[Finding, ...]:
     return (finding,)
 
 
-def _angles(pattern: CreasePattern, measured: Floats) -> Report:
+def _angles(pattern: CreasePattern, measured: Floats, limit: float) -> Report:
     stated = np.isin(pattern.assignments, (Assignment.M, Assignment.V, Assignment.F))
     turn = measured - pattern.fold_angles
     # Near ±180 the sign is noise, so angles are compared round the circle.
@@ -72,8 +74,11 @@ def _angles(pattern: CreasePattern, measured: Floats) -> Report:
     if not len(gaps):
         return Report((), {"fold_angle_gap_deg": 0.0})
     worst = int(gaps.argmax())
-    figures: dict[str, Figure] = {"fold_angle_gap_deg": float(gaps[worst])}
-    wrong = int(np.count_nonzero(gaps > FLAT_DEG))
+    figures: dict[str, Figure] = {
+        "fold_angle_gap_deg": float(gaps[worst]),
+        "fold_angle_limit_deg": limit,
+    }
+    wrong = int(np.count_nonzero(gaps > limit))
     if not wrong:
         return Report((), figures)
     finding = Finding(
@@ -87,14 +92,18 @@ def _angles(pattern: CreasePattern, measured: Floats) -> Report:
     return Report((finding,), figures)
 
 
-def _seams(folded: FoldedForm) -> Report:
+def _seams(folded: FoldedForm, limit: float) -> Report:
     if not len(folded.seams):
         return Report((), {"seams": 0, "seam_gap_mm": 0.0})
     ends = folded.vertices[folded.seams]
     gaps = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     worst = int(gaps.argmax())
-    figures: dict[str, Figure] = {"seams": len(gaps), "seam_gap_mm": float(gaps[worst])}
-    if gaps[worst] <= COINCIDENT_MM:
+    figures: dict[str, Figure] = {
+        "seams": len(gaps),
+        "seam_gap_mm": float(gaps[worst]),
+        "seam_limit_mm": limit,
+    }
+    if gaps[worst] <= limit:
         return Report((), figures)
     a, b = folded.seams[worst]
     finding = Finding(

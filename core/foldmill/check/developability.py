@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from foldmill.check.limits import limits
 from foldmill.check.report import Figure, Report, not_checked, vertex_name
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import CreasePattern, Floats, Indices
-from foldmill.tolerances import ANGLE_SUM_RAD
 
 
 def angle_sums(points: Floats, faces: Indices) -> Floats:
@@ -34,15 +34,18 @@ def angle_sums(points: Floats, faces: Indices) -> Floats:
 def developability(fold: Fold) -> Report:
     """Compare the angle sums of the pattern, and of the folded form, with 2π."""
     pattern = fold.pattern
-    flat = _measure(pattern, pattern.vertices, "angle_sum", "pattern")
+    limit = limits(fold).angle_sum_rad
+    flat = _measure(pattern, pattern.vertices, limit, "angle_sum", "pattern")
     if fold.folded is None:
         names = ("folded_angle_sum_rad", "folded_angle_sum_vertex")
         return Report.joined([flat, not_checked("the angle sums in space", *names)])
-    solid = _measure(pattern, fold.folded.vertices, "folded_angle_sum", "folded form")
+    solid = _measure(pattern, fold.folded.vertices, limit, "folded_angle_sum", "folded form")
     return Report.joined([flat, solid])
 
 
-def _measure(pattern: CreasePattern, points: Floats, figure: str, place: str) -> Report:
+def _measure(
+    pattern: CreasePattern, points: Floats, limit: float, figure: str, place: str
+) -> Report:
     inner = pattern.interior_vertices
     gaps = angle_sums(points, pattern.faces)[inner] - 2 * np.pi
     if not len(inner):
@@ -50,9 +53,10 @@ def _measure(pattern: CreasePattern, points: Floats, figure: str, place: str) ->
     worst = int(np.abs(gaps).argmax())
     figures: dict[str, Figure] = {
         f"{figure}_rad": abs(float(gaps[worst])),
+        f"{figure}_limit_rad": limit,
         f"{figure}_vertex": int(inner[worst]),
     }
-    wrong = int(np.count_nonzero(np.abs(gaps) > ANGLE_SUM_RAD))
+    wrong = int(np.count_nonzero(np.abs(gaps) > limit))
     if not wrong:
         return Report((), figures)
     gap = float(gaps[worst])

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from foldmill.check.limits import limits
 from foldmill.check.report import Figure, Report, counted, edge_name, not_checked
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
-from foldmill.tolerances import ISOMETRY
 
 
 def isometry(fold: Fold) -> Report:
@@ -21,8 +21,13 @@ def isometry(fold: Fold) -> Report:
     change = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - pattern.edge_lengths
     share = np.abs(change) / pattern.size
     worst = int(share.argmax())
-    figures: dict[str, Figure] = {"isometry": float(share[worst]), "isometry_edge": worst}
-    wrong = int(np.count_nonzero(share > ISOMETRY))
+    limit = limits(fold).isometry
+    figures: dict[str, Figure] = {
+        "isometry": float(share[worst]),
+        "isometry_limit": limit,
+        "isometry_edge": worst,
+    }
+    wrong = int(np.count_nonzero(share > limit))
     if not wrong:
         return Report((), figures)
     finding = Finding(
