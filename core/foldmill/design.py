@@ -183,6 +183,8 @@ def explain(error: ValidationError) -> str:
     for fault in error.errors():
         place = ".".join(str(part) for part in fault["loc"] if part not in {"line", "free"})
         said = fault["msg"].removeprefix("Value error, ").rstrip(".")
-        given = "" if not place or fault["type"] == "missing" else f" (got {fault['input']!r})"
+        holds_others = isinstance(fault["input"], (Mapping, list, tuple))
+        is_shown = place and fault["type"] != "missing" and not holds_others
+        given = f" (got {fault['input']!r})" if is_shown else ""
         sentences.append(f"{place}: {said}{given}." if place else f"{said}.")
     return " ".join(sentences)

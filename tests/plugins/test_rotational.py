@@ -93,6 +93,8 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
         ({"phi": float("nan")}, "phi: Input should be"),
         ({"phi": float("inf")}, "phi: Input should be"),
         ({"points": {1: {"a": 40}}}, "points: a facet needs points 1 and 2 beside the centre"),
+        ({"points": FOUR | {9: {"a": 5}}}, r"numbered 1, 2, 3 …, not \[1, 2, 3, 4, 9\]\.$"),
+        ({"points": [40, 62]}, r"points: Input should be a valid dictionary\.$"),
         ({"points": {}}, "points: a facet needs points 1 and 2 beside the centre"),
         ({"points": {1: {"a": 40}, 3: {"a": 60}}}, "points: the points must be numbered 1, 2, 3"),
         ({"points": FOUR | {2: {"a": 0}}}, r"points\.2\.a: Input should be greater than 0"),

@@ -21,7 +21,8 @@ class LinePoint(Params):
     branch: Literal[-1, 1] = 1
     """Which of the two possible places P_i takes; it decides mountain or valley of p_{i-2}p_i."""
     gamma: Angle | None = None
-    """Direction of P_{i-2}P_i from +r towards +z, needed only where every direction is possible."""
+    """Direction of P_{i-2}P_i from +r towards +z, needed only where every direction is possible;
+    elsewhere it waits unused, as a drag may leave that place and come back."""
 
 
 class FreePoint(Params):
