@@ -4,6 +4,10 @@ Two triangles penetrate where each has corners on both sides of the other's plan
 and they overlap along the planes' common line by more than eps. Touching, lying upon each other and
 sharing an edge are not penetration. A sheet can also pass through a triangle exactly along an edge:
 the edge lies inside the triangle and its two faces leave on opposite sides.
+
+Outside the rule is a crossing exactly where both sheets have a crease: there no edge lies inside a
+triangle and no triangle straddles another's plane within it, and nothing is found. Any move by more
+than eps off that line brings it back under the rule.
 """
 
 from __future__ import annotations

@@ -55,6 +55,17 @@ def test_a_sheet_that_passes_a_facet_exactly_along_a_crease_penetrates_it() -> N
     assert not len(penetrations(vertices, edges, faces))
 
 
+def test_two_sheets_that_cross_exactly_where_both_have_a_crease_are_beyond_the_rule() -> None:
+    crease = [[0, 0, -5], [0, 0, 5]]
+    one, two = [*crease, [5, 0, 0], [-5, 0, 0]], [*crease, [0, 5, 0], [0, -5, 0]]
+    edges = np.array([[0, 1], [4, 5]])
+    faces = np.array([[0, 1, 2], [1, 0, 3], [4, 5, 6], [5, 4, 7]])
+    assert not len(penetrations(np.array([*one, *two], float), edges, faces))
+    for step in ([1e-5, 0, 0], [0, 1e-5, 0], [1e-5, -1e-5, 0]):
+        moved = np.array(two, float) + step
+        assert len(penetrations(np.array([*one, *moved], float), edges, faces))
+
+
 def test_verdicts_agree_with_whole_number_arithmetic() -> None:
     rng = np.random.default_rng(11)
     verdicts = []
