@@ -1,0 +1,90 @@
+"""The motion along the arc: the planes close on each other, and the open sheet folds flat.
+
+Θ' goes from Θ = 180°/N to 0 while r_1, β and every branch stay (thesis 5.2.1). The folding rate is
+FR = 100 (1 − Θ'/Θ) % (Eq. 5.8), so that t = FR / 100. The seam is open on the way.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill.axisymmetric.tabs import Tabs
+from foldmill.axisymmetric.tube import Tube, in_space
+from foldmill.motion import Motion
+from foldmill.tolerances import ON_LINE
+from foldmill_plugins.six_crease import solve
+from foldmill_plugins.six_crease.params import SixCreaseParams
+
+Floats = NDArray[np.float64]
+
+SAMPLES = 200
+"""Places at which the way is looked at: half a percent of the folding rate apart."""
+ROUNDS = 4
+"""How often the step before the first fault is divided by SAMPLES again."""
+
+
+def along_arc(params: SixCreaseParams, whole: Tube, glued: Tabs | None) -> Motion:
+    """Return the motion, and how far it goes: to where a point has no place or is on the axis.
+
+    glued : the tabs of the sheet, which stay rigid with the facets that hold them.
+    """
+    start = glued.sheet.spatial if glued else whole.spatial
+    reach, reason = find_reach(params)
+
+    def path(t: float) -> Floats:
+        if t == 0:
+            return start.copy()
+        theta = solve.wedge_angle(params) * (1 - t)
+        places = whole.turned(in_space(solve.meridian(params, theta), theta), theta)
+        return glued.carry(places) if glued else places
+
+    return Motion("along-arc", "Fold flat along the arc, the seam open", path, reach, reason)
+
+
+def folding_rate(params: SixCreaseParams, theta: float) -> float:
+    """Return FR in percent for Θ' in deg (Eq. 5.8)."""
+    return 100 * (1 - theta * params.n / 180)
+
+
+def find_reach(params: SixCreaseParams) -> tuple[float, str]:
+    """Return the t to which the motion goes, and why it stops there: empty where it does not."""
+    low, high = 0.0, 1.0
+    for _ in range(ROUNDS):
+        rates = np.linspace(low, high, SAMPLES + 1)
+        places = solve.meridians(params, solve.wedge_angle(params) * (1 - rates))
+        faulty = np.flatnonzero(_faults(params, places).any(axis=1))
+        if not len(faulty):
+            return 1.0, ""
+        if faulty[0] == 0:
+            break
+        low, high = float(rates[faulty[0] - 1]), float(rates[faulty[0]])
+    return low, _reason(params, low, places[faulty[0]])
+
+
+def _faults(params: SixCreaseParams, places: Floats) -> NDArray[np.bool_]:
+    """Tell which points (K, T) have no place, or are on the other side of the axis."""
+    r = places[..., 0]
+    limit = ON_LINE * float(np.nanmax(np.abs(places)))
+    # The form of the tube itself says which side is the side of the form.
+    side = _side(params)
+    return np.isnan(r) | (side * r < -limit)
+
+
+def _side(params: SixCreaseParams) -> int:
+    r = solve.meridian(params)[:, 0]
+    return 1 if r.max() >= -r.min() else -1
+
+
+def _reason(params: SixCreaseParams, t: float, places: Floats) -> str:
+    i = 1 + int(np.flatnonzero(_faults(params, places[None])[0])[0])
+    where = f"At a folding rate of {100 * t:.4g} % point {i}"
+    if not np.isnan(places[i - 1, 0]):
+        return f"{where} reaches the axis: its radius is 0, and beyond it facets would penetrate."
+    s = abs(places[i - 2, 0]) * np.sin(solve.wedge_angle(params) * (1 - t))
+    if s < params.w * (1 - ON_LINE):
+        return f"{where} can turn freely about point {i - 2}: how it goes on is not determined."
+    return (
+        f"{where} loses its place: point {i - 1} comes {params.w:.6g} mm from its plane, and no "
+        "more paper reaches there."
+    )
