@@ -56,13 +56,15 @@ def add(sheet: Sheet, width: float, taper: float) -> Tabs:
     Raises ImpossibleGeometry where a tab does not fit upon the facet across the seam.
     """
     joints = _joints(sheet)
+    rooms = [_room(sheet, joint, taper) for joint in joints]
+    _refuse_wide(rooms, width, taper)
     flat, spatial = [sheet.flat], [sheet.spatial]
     faces: list[tuple[int, int, int]] = []
     edges: list[tuple[int, int]] = []
-    for k, joint in enumerate(joints):
+    for k, (joint, room) in enumerate(zip(joints, rooms, strict=True)):
         a, b, _ = joint.host
         c = len(sheet.flat) + 2 * k
-        ends = _ends(sheet, joint, width, taper)
+        ends = width * room.start, room.length - width * room.end
         flat.append(_beside(sheet.flat[list(joint.host)], ends, -width))
         spatial.append(_beside(sheet.spatial[list(joint.land)], ends, width))
         faces += [(a, c, b), (b, c, c + 1)]
@@ -85,33 +87,52 @@ def _joints(sheet: Sheet) -> list[Joint]:
     first, second = sheet.seams.T
     partner = dict(zip(second.tolist(), first.tolist(), strict=True))
     third = {
-        frozenset(face[:k] + face[k + 1 :]): face[k] for face in sheet.faces.tolist() for k in range(3)
+        frozenset(face[:k] + face[k + 1 :]): face[k]
+        for face in sheet.faces.tolist()
+        for k in range(3)
     }
     found = []
     for a, b in zip(second[:-1].tolist(), second[1:].tolist(), strict=True):
         land = partner[a], partner[b]
-        found.append(
-            Joint((a, b, third[frozenset((a, b))]), (*land, third[frozenset(land)])),
-        )
+        found.append(Joint((a, b, third[frozenset((a, b))]), (*land, third[frozenset(land)])))
     return found
 
 
-def _ends(sheet: Sheet, joint: Joint, width: float, taper: float) -> tuple[float, float]:
-    """Return where, along a-b, the outer side of the tab begins and ends, mm."""
+@dataclass(frozen=True)
+class _Room:
+    """What a seam edge leaves for a tab."""
+
+    length: float
+    """Of the edge, mm."""
+    start: float
+    """By how much each mm of width shortens the tab at a."""
+    end: float
+    """The same at b."""
+
+    @property
+    def widest(self) -> float:
+        """At this width a tab comes to a point, mm: never more than the facet across is high."""
+        return self.length / (self.start + self.end)
+
+
+def _room(sheet: Sheet, joint: Joint, taper: float) -> _Room:
     a, b, apex = sheet.flat[list(joint.land)]
     length = float(np.hypot(*(b - a)))
     along = (b - a) / length
     foot = float((apex - a) @ along)
     height = abs(float(along[0] * (apex - a)[1] - along[1] * (apex - a)[0]))
     lean = float(np.tan(np.radians(taper)))
-    start, end = max(lean, foot / height), max(lean, (length - foot) / height)
-    if length - width * (start + end) < COINCIDENT_MM:
+    return _Room(length, max(lean, foot / height), max(lean, (length - foot) / height))
+
+
+def _refuse_wide(rooms: list[_Room], width: float, taper: float) -> None:
+    tightest = min(rooms, key=lambda room: room.widest)
+    if width > tightest.widest - COINCIDENT_MM:
         raise ImpossibleGeometry(
-            f"A glue tab {width:g} mm wide does not fit at the seam edge that is {length:.4g} mm "
-            f"long: with a taper of {taper:g}° it must be narrower than "
-            f"{length / (start + end):.4g} mm. Make the tabs narrower."
+            f"A glue tab {width:g} mm wide does not fit at the seam edge that is "
+            f"{tightest.length:.4g} mm long: with a taper of {taper:g}° it must be narrower than "
+            f"{tightest.widest:.4g} mm. Make the tabs narrower."
         )
-    return width * start, length - width * end
 
 
 def _beside(corners: Floats, ends: tuple[float, float], width: float) -> Floats:

@@ -68,7 +68,7 @@ def assemble(half: HalfWedge) -> Tube:
     return weld(Tube, half, _key)
 
 
-def _key(point: int, seat: Seat, turn: int, mirrored: bool, order: int) -> VertexKey:
+def _key(point: int, seat: Seat, turn: int, mirrored: bool, _: int) -> VertexKey:
     return (point, turn - (mirrored and seat is Seat.L2), False)
 
 

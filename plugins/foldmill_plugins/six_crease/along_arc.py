@@ -49,40 +49,43 @@ def folding_rate(params: SixCreaseParams, theta: float) -> float:
 
 def find_reach(params: SixCreaseParams) -> tuple[float, str]:
     """Return the t to which the motion goes, and why it stops there: empty where it does not."""
-    low, high = 0.0, 1.0
+    low, high, side = 0.0, 1.0, 0
     for _ in range(ROUNDS):
         rates = np.linspace(low, high, SAMPLES + 1)
         places = solve.meridians(params, solve.wedge_angle(params) * (1 - rates))
-        faulty = np.flatnonzero(_faults(params, places).any(axis=1))
+        side = side or _side(places[0])
+        faults = _faults(places, side)
+        faulty = np.flatnonzero(faults.any(axis=1))
         if not len(faulty):
             return 1.0, ""
-        if faulty[0] == 0:
+        first = int(faulty[0])
+        if first == 0:
             break
-        low, high = float(rates[faulty[0] - 1]), float(rates[faulty[0]])
-    return low, _reason(params, low, places[faulty[0]])
+        low, high = float(rates[first - 1]), float(rates[first])
+    i = 1 + int(np.flatnonzero(faults[first])[0])
+    return low, _reason(params, low, i, places[first])
 
 
-def _faults(params: SixCreaseParams, places: Floats) -> NDArray[np.bool_]:
-    """Tell which points (K, T) have no place, or are on the other side of the axis."""
+def _side(places: Floats) -> int:
+    """Return on which side of the axis the form is: 1, or -1 where its radii are negative."""
+    r = places[:, 0]
+    return 1 if np.nanmax(r) >= -np.nanmin(r) else -1
+
+
+def _faults(places: Floats, side: int) -> NDArray[np.bool_]:
+    """Tell which points (K, T) have no place, or are beyond the axis."""
     r = places[..., 0]
     limit = ON_LINE * float(np.nanmax(np.abs(places)))
-    # The form of the tube itself says which side is the side of the form.
-    side = _side(params)
     return np.isnan(r) | (side * r < -limit)
 
 
-def _side(params: SixCreaseParams) -> int:
-    r = solve.meridian(params)[:, 0]
-    return 1 if r.max() >= -r.min() else -1
-
-
-def _reason(params: SixCreaseParams, t: float, places: Floats) -> str:
-    i = 1 + int(np.flatnonzero(_faults(params, places[None])[0])[0])
+def _reason(params: SixCreaseParams, t: float, i: int, places: Floats) -> str:
     where = f"At a folding rate of {100 * t:.4g} % point {i}"
     if not np.isnan(places[i - 1, 0]):
         return f"{where} reaches the axis: its radius is 0, and beyond it facets would penetrate."
-    s = abs(places[i - 2, 0]) * np.sin(solve.wedge_angle(params) * (1 - t))
-    if s < params.w * (1 - ON_LINE):
+    theta = solve.wedge_angle(params) * (1 - t)
+    (r2, z2), (r1, z1) = places[i - 3 : i - 1]
+    if np.hypot(r1 * np.cos(theta) - r2, z1 - z2) <= ON_LINE * np.nanmax(np.abs(places)):
         return f"{where} can turn freely about point {i - 2}: how it goes on is not determined."
     return (
         f"{where} loses its place: point {i - 1} comes {params.w:.6g} mm from its plane, and no "

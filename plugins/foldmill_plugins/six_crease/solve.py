@@ -1,9 +1,9 @@
 """From parameters to P_1 … P_T, for one angle Θ' between the planes or for many (thesis 5.1.2).
 
-P_1 = (L sin φ, L cos φ) as (r, z). C_2 is the foot of P_1 on Π2, and P_2 lies on the circle about it
-with ρ² = |p_1p_2|² − (r_1 sin Θ')², at the angle β from the axis. Every later P_i is where two
+P_1 = (L sin φ, L cos φ) as (r, z). C_2 is the foot of P_1 on Π2, and P_2 lies on the circle about
+it with ρ² = |p_1p_2|² − (r_1 sin Θ')², at the angle β from the axis. Every later P_i is where two
 circles meet, with c = y_{i-1} − y_{i-2} and h = w. Only r_1 = L sin φ and β shape the form: L cos φ
-moves it along the axis.
+moves it along the axis, so that the space of forms has two dimensions.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def meridian(params: SixCreaseParams, theta: float | None = None) -> Floats:
     InvalidParameters where a γ is missing.
     """
     angle = wedge_angle(params) if theta is None else theta
-    _refuse_long(params, angle)
+    _refuse_long(params)
     spots = np.zeros((len(params.points), 2))
     spots[:2] = _first_two(params, np.array(angle))
     for i, paper, side in _steps(params):
@@ -102,11 +102,11 @@ def _steps(params: SixCreaseParams) -> list[tuple[int, Paper, Side]]:
     return steps
 
 
-def _refuse_long(params: SixCreaseParams, theta: float) -> None:
+def _refuse_long(params: SixCreaseParams) -> None:
     bound = longest(params)
-    if params.L > bound:
+    if bound < params.L:
         raise ImpossibleGeometry(
-            f"Point 2 has no place: L = {params.L:g} mm is more than L_b = {bound:.6g} mm, the most "
-            f"for φ = {params.phi:g}° ({params.L - bound:.3g} mm too many). Make L smaller, or turn "
-            f"φ away from 90°."
+            f"Point 2 has no place: L = {params.L:g} mm is more than L_b = {bound:.6g} mm, the "
+            f"most for φ = {params.phi:g}° ({params.L - bound:.3g} mm too many). Make L smaller, "
+            "or turn φ away from 90°."
         )
