@@ -256,6 +256,11 @@ NINE = DESIGN.preset("vase").model_dump()["points"]
         ({"L": -1}, "L: Input should be greater than or equal to 0"),
         ({"L": float("nan")}, "L: Input should be"),
         ({"tab": -1}, "tab: Input should be greater than or equal to 0"),
+        ({"tab": 1e-9}, "A glue tab 1e-09 mm wide holds nothing; make it wider"),
+        ({"w": 10001}, "w: Input should be less than or equal to 10000"),
+        ({"L": 10001}, "L: Input should be less than or equal to 10000"),
+        ({"beta": 361}, "beta: Input should be less than or equal to 360"),
+        ({"points": FOUR | {4: {"y": 1e5}}}, r"points\.4\.y: Input should be less than"),
         ({"taper": 76}, "taper: Input should be less than or equal to 75"),
         ({"points": {}}, "points: a tube needs points 1 to 4 .* not 0 of them"),
         (

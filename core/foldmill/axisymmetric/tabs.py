@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.axisymmetric.tube import Sheet
-from foldmill.errors import ImpossibleGeometry
+from foldmill.errors import ImpossibleGeometry, InvalidParameters
 from foldmill.tolerances import COINCIDENT_MM
 
 Floats = NDArray[np.float64]
@@ -53,11 +53,12 @@ def add(sheet: Sheet, width: float, taper: float) -> Tabs:
     """Add a tab at every edge of the second border of the seam.
 
     width : mm; taper : deg by which each end leans inwards, 0 for a rectangle.
-    Raises ImpossibleGeometry where a tab does not fit upon the facet across the seam.
+    Raises ImpossibleGeometry where a tab does not fit upon the facet across the seam, and
+    InvalidParameters for one without a width.
     """
     joints = _joints(sheet)
     rooms = [_room(sheet, joint, taper) for joint in joints]
-    _refuse_wide(rooms, width, taper)
+    _refuse(rooms, width, taper)
     flat, spatial = [sheet.flat], [sheet.spatial]
     faces: list[tuple[int, int, int]] = []
     edges: list[tuple[int, int]] = []
@@ -125,9 +126,11 @@ def _room(sheet: Sheet, joint: Joint, taper: float) -> _Room:
     return _Room(length, max(lean, foot / height), max(lean, (length - foot) / height))
 
 
-def _refuse_wide(rooms: list[_Room], width: float, taper: float) -> None:
+def _refuse(rooms: list[_Room], width: float, taper: float) -> None:
+    if width <= COINCIDENT_MM:
+        raise InvalidParameters(f"A glue tab {width:g} mm wide holds nothing; make it wider.")
     tightest = min(rooms, key=lambda room: room.widest)
-    if width > tightest.widest - COINCIDENT_MM:
+    if tightest.length - width * (tightest.start + tightest.end) <= COINCIDENT_MM:
         raise ImpossibleGeometry(
             f"A glue tab {width:g} mm wide does not fit at the seam edge that is "
             f"{tightest.length:.4g} mm long: with a taper of {taper:g}° it must be narrower than "

@@ -80,6 +80,8 @@ def _faults(places: Floats, side: int) -> NDArray[np.bool_]:
 
 
 def _reason(params: SixCreaseParams, t: float, i: int, places: Floats) -> str:
+    if t == 0 and not np.isnan(places[i - 1, 0]):
+        return f"The form lies on both sides of its axis from the start: point {i} is beyond it."
     where = f"At a folding rate of {100 * t:.4g} % point {i}"
     if not np.isnan(places[i - 1, 0]):
         return f"{where} reaches the axis: its radius is 0, and beyond it facets would penetrate."

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from foldmill.handle import Circle, Handle, Line, Plane, Space
 from foldmill.tolerances import COINCIDENT_MM
 from foldmill_plugins.six_crease import solve
-from foldmill_plugins.six_crease.params import SixCreaseParams
+from foldmill_plugins.six_crease.params import FARTHEST, SixCreaseParams
 
 Floats = NDArray[np.float64]
 Drag = Callable[[SixCreaseParams, Floats], SixCreaseParams]
@@ -41,8 +41,9 @@ def _height(i: int, spot: Floats) -> Handle:
 
 def _between(params: SixCreaseParams, i: int, y: float) -> float:
     """Keep a height between those of its neighbours on the line, a hair's breadth apart."""
-    low = params.points[i - 2].y + COINCIDENT_MM if i - 2 in params.points else -np.inf
-    high = params.points[i + 2].y - COINCIDENT_MM if i + 2 in params.points else np.inf
+    gap = 3 * COINCIDENT_MM
+    low = params.points[i - 2].y + gap if i - 2 in params.points else -FARTHEST
+    high = params.points[i + 2].y - gap if i + 2 in params.points else FARTHEST
     return float(min(max(y, low), high))
 
 
@@ -52,7 +53,7 @@ def _first(spot: Floats) -> Handle:
     def drag(params: SixCreaseParams, point: Floats) -> SixCreaseParams:
         x, _, z = plane.nearest(point)
         changed = params.model_copy(update={"phi": float(np.degrees(np.arctan2(max(x, 0.0), z)))})
-        reach = min(float(np.hypot(max(x, 0.0), z)), solve.longest(changed))
+        reach = min(float(np.hypot(max(x, 0.0), z)), solve.longest(changed), FARTHEST)
         return changed.model_copy(update={"L": reach})
 
     here = np.array([spot[0], 0.0, spot[1]])

@@ -9,12 +9,16 @@ from pydantic import AfterValidator, Field
 
 from foldmill import Angle, Coordinate, Count, InvalidParameters, Length, Params
 from foldmill.axisymmetric.points import in_order
+from foldmill.tolerances import COINCIDENT_MM
+
+FARTHEST = 10_000.0
+"""mm. Ten metres: no sheet is larger, and so far from 0 a double still tells 2e-12 mm."""
 
 
 class HeightPoint(Params):
     """A point of the pattern on its line."""
 
-    y: Coordinate
+    y: Coordinate = Field(ge=-FARTHEST, le=FARTHEST)
     """Height of p_i on its line, above that of p_{i-2}."""
     branch: Literal[-1, 1] = 1
     """Which of the two possible places P_i takes, from point 3 on; it decides mountain or valley of
@@ -37,7 +41,7 @@ def _enough(points: Mapping[int, HeightPoint]) -> Mapping[int, HeightPoint]:
 def _rising(points: Mapping[int, HeightPoint]) -> Mapping[int, HeightPoint]:
     for i in range(3, len(points) + 1):
         low, high = points[i - 2].y, points[i].y
-        if high <= low:
+        if high - low <= 2 * COINCIDENT_MM:
             raise ValueError(
                 f"point {i} must lie above point {i - 2} on its line: points.{i}.y = {high:g} mm, "
                 f"but points.{i - 2}.y = {low:g} mm. Give point {i} more than {low:g} mm"
@@ -82,13 +86,13 @@ class SixCreaseParams(Params):
 
     n: Count = Field(default=10, ge=3, le=72)
     """Order of rotational symmetry: how many wedges go round."""
-    w: Length = 10.0
+    w: Length = Field(default=10.0, le=FARTHEST)
     """Distance of the lines l1 and l2: the sheet is 2·N·w wide."""
-    L: Coordinate = Field(default=42.0, ge=0)
+    L: Coordinate = Field(default=42.0, ge=0, le=FARTHEST)
     """Distance of P_1 from the origin, which lies on the axis."""
     phi: Angle = Field(default=147.5, ge=0, le=180)
     """Angle between the axis and the line from the origin to P_1."""
-    beta: Angle = 292.9
+    beta: Angle = Field(default=292.9, ge=-360, le=360)
     """Where P_2 is on its circle: angle between the axis and C_2P_2, from +z towards +r."""
     points: HeightPoints = Field(default_factory=_candlestick)
     """Points p_1, p_2 … upwards: odd ones on line l1, even ones on line l2."""
