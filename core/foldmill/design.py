@@ -6,23 +6,39 @@ validation and documentation follow from that one place.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from foldmill.errors import InvalidParameters, InvalidPattern, UnknownName
+from foldmill.errors import (
+    FoldmillError,
+    InvalidParameters,
+    InvalidPattern,
+    PluginFault,
+    UnknownName,
+    one_line,
+)
 from foldmill.folded import FoldedForm
 from foldmill.handle import Handle
 from foldmill.motion import Motion
 from foldmill.pattern import CreasePattern, Indices
 
-Length = Annotated[float, Field(gt=0, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
-"""A length in mm, positive and finite."""
-Coordinate = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})]
-"""A signed position in mm, finite."""
+MOST_MM = 1e5
+"""mm. Nothing in a pattern lies farther out: 100 m of paper, far below where squares overflow."""
+Length = Annotated[
+    float, Field(gt=0, lt=MOST_MM, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})
+]
+"""A length in mm, positive and below 100 m. A field's own ``ge`` and ``le`` hold as well; its
+``gt`` and ``lt`` would not."""
+Coordinate = Annotated[
+    float, Field(gt=-MOST_MM, lt=MOST_MM, allow_inf_nan=False, json_schema_extra={"x-unit": "mm"})
+]
+"""A signed position in mm, within 100 m. A field's own ``ge`` and ``le`` hold as well; its ``gt``
+and ``lt`` would not."""
 Angle = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "deg"})]
 """An angle in degrees, finite."""
 Count = Annotated[int, Field(strict=True, gt=0)]
@@ -41,7 +57,7 @@ class Params(BaseModel):
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:
-    """The rotational symmetry of a fold, as the intersection check may use it."""
+    """The rotational symmetry of a fold about the z axis, as the intersection check may use it."""
 
     order: int
     """N: the form maps to itself when turned by 360/N degrees."""
@@ -49,7 +65,8 @@ class Symmetry:
     """(k,) faces of one half wedge; mirrored and turned they make the whole form."""
     one_sided: bool
     """True where every signed radius has one sign, so that no facet crosses the axis. Only then do
-    the half wedge's own facets decide whether the whole form is free of penetration."""
+    the half wedge's own facets decide whether the whole form is free of penetration. The half wedge
+    lies between the azimuths 0 and 180/N degrees, or opposite; checked before it is believed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,21 +119,62 @@ class Design(Generic[P]):
     def validate(self, values: Mapping[str, Any]) -> P:
         """Turn raw values (a form, a file, a command line) into parameters.
 
-        Raises InvalidParameters with one sentence for each value that is out of bounds.
+        Raises InvalidParameters with one sentence for each value that is out of bounds, PluginFault
+        where the family itself is at fault.
         """
-        try:
-            return self.params.model_validate(values)
-        except ValidationError as error:
-            raise InvalidParameters(explain(error)) from None
+        with _blamed(self.slug):
+            try:
+                return self.params.model_validate(values)
+            except ValidationError as error:
+                raise InvalidParameters(explain(error)) from None
 
     def run(self, values: Mapping[str, Any] | P = _NOTHING) -> Fold:
-        """Validate, generate, and record in ``meta`` which design and parameters it was."""
+        """Validate, generate, and record in ``meta`` which design and parameters it was.
+
+        Raises what ``validate`` raises, ImpossibleGeometry, and PluginFault where the family fails
+        in a way that no user can mend.
+        """
+        require_sound(self)
         params = values if isinstance(values, self.params) else self.validate(dict(values))
-        fold = self.generate(params)
-        stated = params.model_dump(mode="json")
-        record = {"slug": self.slug, "version": self.version, "params": stated}
-        meta = {"title": self.title, **fold.meta, "design": record}
-        return replace(fold, meta=meta)
+        with _blamed(self.slug):
+            fold = self.generate(params)
+            if not isinstance(fold, Fold):
+                raise PluginFault(
+                    f"The family {self.slug!r} is broken: its generate returns "
+                    f"{type(fold).__name__}, not a Fold."
+                )
+            stated = params.model_dump(mode="json")
+            record = {"slug": self.slug, "version": self.version, "params": stated}
+            meta = {"title": self.title, **fold.meta, "design": record}
+            return replace(fold, meta=meta)
+
+
+def require_sound(design: Design[Any]) -> None:
+    """Raise PluginFault, naming the family, where a design is not made of what it must be."""
+    is_model = isinstance(design.params, type) and issubclass(design.params, Params)
+    for holds, said in (
+        (isinstance(design.slug, str), f"its slug is {design.slug!r}, which is no text"),
+        (isinstance(design.title, str), f"its title is {design.title!r}, which is no text"),
+        (is_model, f"its params are {design.params!r}, which is no kind of Params"),
+        (callable(design.generate), f"its generate is {design.generate!r}, which is no function"),
+        (isinstance(design.presets, Mapping), "its presets are no mapping from names to Params"),
+    ):
+        if not holds:
+            raise PluginFault(f"The family {design.slug!r} is broken: {said}.")
+
+
+@contextmanager
+def _blamed(slug: str) -> Iterator[None]:
+    """Turn whatever a family raises by mistake into a sentence that names the family."""
+    try:
+        yield
+    except FoldmillError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise PluginFault(
+            f"The family {slug!r} is broken: with these parameters it fails with "
+            f"{one_line(error).rstrip('.')}. Other parameters may work; tell its author."
+        ) from error
 
 
 def explain(error: ValidationError) -> str:

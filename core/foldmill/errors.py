@@ -55,3 +55,8 @@ class UnknownName(FoldmillError, LookupError):
 
 class PluginFault(FoldmillError, TypeError):
     """A plugin that does not keep its contract."""
+
+
+def one_line(error: BaseException) -> str:
+    """Return an exception's kind and words on one line: "TypeError: no list"."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}"

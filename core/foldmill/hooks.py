@@ -28,6 +28,9 @@ PROJECT = "foldmill"
 hookspec = pluggy.HookspecMarker(PROJECT)
 hookimpl = pluggy.HookimplMarker(PROJECT)
 
+HOOK_TYPES: dict[str, type] = {"foldmill_designs": Design}
+"""What the values of each hook must be. A module of hookspecs states it for hooks of its own."""
+
 
 @hookspec
 def foldmill_designs() -> Iterable[Design[Any]]:
@@ -37,5 +40,8 @@ def foldmill_designs() -> Iterable[Design[Any]]:
 
 @hookspec
 def foldmill_hookspecs() -> Iterable[ModuleType]:
-    """Return modules that specify further hooks. Called once, before any other hook."""
+    """Return modules that specify further hooks. Called before any other hook.
+
+    Such a module may state in ``HOOK_TYPES`` what the values of each of its hooks must be.
+    """
     return ()

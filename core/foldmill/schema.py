@@ -103,6 +103,17 @@ def outside(bound: Bound, is_integer: bool) -> float:
     )
 
 
+def inside(bound: Bound, is_integer: bool) -> float:
+    """Return the number nearest to a bound that it allows."""
+    if not bound.is_exclusive:
+        return bound.value
+    return (
+        bound.value - bound.side
+        if is_integer
+        else math.nextafter(bound.value, -bound.side * math.inf)
+    )
+
+
 def placed(values: dict[str, Any], path: Path, new: Any) -> dict[str, Any]:
     """Return a copy of the values with one of them changed."""
     changed = deepcopy(values)
@@ -140,8 +151,9 @@ def _options(node: Schema, defs: Schema, value: Any) -> Iterator[Schema]:
             {**target, **{k: v for k, v in node.items() if k != "$ref"}}, defs, value
         )
     elif "anyOf" in node or "oneOf" in node:
+        shared = {"description": node["description"]} if "description" in node else {}
         for each in node["anyOf"] if "anyOf" in node else node["oneOf"]:
-            yield from _options(each, defs, value)
+            yield from _options(shared | each, defs, value)
     elif value is _NO_VALUES or _fits(node, value):
         yield node
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -18,11 +19,14 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from foldmill.check import check
+from foldmill.check import RULES, Report, check, penetration, symmetry
+from foldmill.check.intersection import penetrations
+from foldmill.corners import corners, numbers
 from foldmill.design import Design, Fold, Params
-from foldmill.errors import InvalidParameters
+from foldmill.errors import FoldmillError, InvalidParameters, PluginFault, one_line
 from foldmill.exchange.fold import read, write
 from foldmill.finding import Severity
+from foldmill.pattern import Assignment
 from foldmill.schema import Bound, Leaf, leaves, objects, outside, placed
 
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -37,8 +41,13 @@ class Check:
     run: Callable[[], None]
 
     def __call__(self) -> None:
-        """Run it; raises AssertionError."""
-        self.run()
+        """Run it; raises AssertionError, whatever goes wrong."""
+        try:
+            self.run()
+        except AssertionError:
+            raise
+        except Exception as error:
+            raise AssertionError(f"{self.name} cannot be run. {one_line(error)}") from error
 
     def __str__(self) -> str:
         return self.name
@@ -159,26 +168,15 @@ def _models(kind: Any) -> Iterator[type[BaseModel]]:
 
 
 def _out_of_bounds(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf, Bound]]:
-    for whole, leaf in _numbers(design):
+    for whole, leaf in numbers(design):
         for bound in leaf.bounds:
             yield placed(whole, leaf.path, outside(bound, leaf.is_integer)), leaf, bound
 
 
 def _nan_refused(design: Design[Any]) -> None:
-    for whole, leaf in _numbers(design):
+    for whole, leaf in numbers(design):
         values = placed(whole, leaf.path, float("nan"))
         _refused(design, values, leaf.name, f"{leaf.name} = NaN")
-
-
-def _numbers(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf]]:
-    """Yield every kind of number among the parameters once, with values that hold one of it."""
-    seen: set[str] = set()
-    for case in ["defaults", *design.presets]:
-        whole = _params(design, case).model_dump(mode="json")
-        for leaf in leaves(design.schema(), whole):
-            if leaf.is_number and leaf.kind not in seen:
-                seen.add(leaf.kind)
-                yield whole, leaf
 
 
 def _refused(design: Design[Any], values: dict[str, Any], name: str, what: str) -> None:
@@ -203,15 +201,67 @@ def _returns_a_fold(design: Design[Any], case: str) -> None:
     _require(isinstance(made, Fold), f"generate returns {type(made).__name__}, not a Fold.")
 
 
+def _params_untouched(design: Design[Any], case: str) -> None:
+    params = _params(design, case)
+    before = params.model_dump_json()
+    design.run(params)
+    _require(params.model_dump_json() == before, "generate changes the parameters it is given.")
+
+
 def _deterministic(design: Design[Any], case: str) -> None:
     one, two = (write(design.run(_params(design, case))) for _ in range(2))
     _require(one == two, "The same parameters give two different patterns.")
 
 
 def _without_errors(design: Design[Any], case: str) -> None:
-    findings = check(design.run(_params(design, case))).findings
-    errors = [str(finding) for finding in findings if finding.severity is Severity.ERROR]
-    _require(not errors, " ".join(errors))
+    _require_no_errors(check(design.run(_params(design, case))), "")
+
+
+def _require_no_errors(report: Report, where: str) -> None:
+    errors = [str(finding) for finding in report.findings if finding.severity is Severity.ERROR]
+    _require(not errors, where + " ".join(errors))
+
+
+def _assigned(design: Design[Any], case: str) -> None:
+    pattern = design.run(_params(design, case)).pattern
+    count = pattern.count(Assignment.U)
+    said = f"{count} creases are neither mountain, valley nor flat; the family must say which."
+    _require(not count, said)
+
+
+def _symmetric(design: Design[Any], case: str) -> None:
+    """What is said of the symmetry is true, and the half wedge gives the verdict of the whole."""
+    fold = design.run(_params(design, case))
+    if fold.symmetry is None or fold.folded is None:
+        return
+    solid, pattern = fold.folded.vertices, fold.pattern
+    untrue = symmetry.fault(fold.symmetry, solid, pattern.faces)
+    _require(not untrue, f"The symmetry it states is not there: {untrue}.")
+    if fold.symmetry.one_sided:
+        decides = symmetry.half_wedge_decides(fold.symmetry, solid, pattern.faces)
+        _require(decides, "It is said to be one-sided, but its half wedge crosses the axis.")
+        wedge = penetrations(solid, pattern.edges, pattern.faces[fold.symmetry.wedge])
+        whole = penetrations(solid, pattern.edges, pattern.faces)
+        said = f"The half wedge has {len(wedge)} penetrations, the whole form {len(whole)}."
+        _require(bool(len(wedge)) == bool(len(whole)), said)
+
+
+def _corners_answered(design: Design[Any]) -> None:
+    """At the ends of its parameters a design gives a sheet that folds, or refuses in a sentence."""
+    for what, values in corners(design):
+        try:
+            params = design.validate(values)
+            before = params.model_dump_json()
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", RuntimeWarning)
+                fold = design.run(params)
+        except PluginFault as error:
+            raise AssertionError(f"At {what}: {error}") from error
+        except FoldmillError:
+            continue
+        unchanged = params.model_dump_json() == before
+        _require(unchanged, f"At {what}: generate changes the parameters it is given.")
+        _require_no_errors(Report.joined(rule(fold) for rule in _STRUCTURE), f"At {what}: ")
 
 
 def _round_trip(design: Design[Any], case: str) -> None:
@@ -219,6 +269,8 @@ def _round_trip(design: Design[Any], case: str) -> None:
     _require(write(read(written)) == written, "Its FOLD file changes when it is read and written.")
 
 
+_STRUCTURE = tuple(rule for rule in RULES if rule is not penetration)
+"""A form may pass through itself at the ends of its parameters; it may not fall to pieces."""
 _RULES: dict[str, Callable[[Design[Any]], None]] = {
     "slug": _slug,
     "documented": _documented,
@@ -230,10 +282,14 @@ _RULES: dict[str, Callable[[Design[Any]], None]] = {
     "bounds-hold": _bounds_hold,
     "bounds-kept": _bounds_kept,
     "nan-refused": _nan_refused,
+    "corners-answered": _corners_answered,
 }
 _CASE_RULES: dict[str, Callable[[Design[Any], str], None]] = {
     "returns-a-fold": _returns_a_fold,
+    "params-untouched": _params_untouched,
     "deterministic": _deterministic,
     "without-errors": _without_errors,
+    "assigned": _assigned,
+    "symmetric": _symmetric,
     "fold-round-trip": _round_trip,
 }

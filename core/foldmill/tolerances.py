@@ -11,6 +11,10 @@ FLAT_DEG: Final = 1e-4
 CLOSED_DEG: Final = 1e-4
 """deg. Nearer to ±180 than this the sign of a fold angle is noise, and the family states it."""
 
+NEARLY_CLOSED_DEG: Final = 1e-2
+"""deg. How far φ is opened from 0 or 180 to see to which side a crease closes. A hundred times
+CLOSED_DEG, so that the sign is no noise there; so little that no other crease changes its own."""
+
 ANGLE_SUM_RAD: Final = 1e-11
 """rad. Largest deviation of an interior vertex's angle sum from 2π (solved patterns: 1e-14)."""
 
@@ -21,6 +25,10 @@ edge it would punish slivers: they reach 6e-11 of themselves at 3e-14 of the she
 PENETRATION: Final = 1e-7
 """Share of the form's size that two facets must pass through each other to penetrate. Verdicts on
 1.2 million forms were the same from 1e-7 to 1e-13."""
+
+SYMMETRY: Final = 1e-8
+"""Share of the form's size by which a turned or mirrored vertex may miss its place. A tenth of
+PENETRATION, so that no copy penetrates unseen; a file of six decimals keeps it (3e-9 of 300 mm)."""
 
 COINCIDENT_MM: Final = 1e-6
 """mm. Two points nearer than this are one. A thousandth of the finest plotter step is 2.5e-5."""

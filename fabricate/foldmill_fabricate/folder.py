@@ -27,8 +27,8 @@ JOB_SHEET = "job-sheet.pdf"
 def write(fold: Fold, plan: Plan, folder: Path, formats: Sequence[str]) -> Plan:
     """Write everything one job needs into a folder; return the plan with its programs named.
 
-    Raises UnknownName for a format nobody offers. Programs of an earlier plan in the same folder
-    are removed: a stale one must not reach a machine.
+    Raises UnknownName for a format nobody offers. What an earlier plan left in the same folder is
+    removed: a stale file must not reach a machine or mislead a person.
     """
     contents: dict[str, bytes] = {PATTERN: fold_file.write(fold).encode()}
     programs: list[ProgramFile] = []
@@ -39,16 +39,19 @@ def write(fold: Fold, plan: Plan, folder: Path, formats: Sequence[str]) -> Plan:
         for name, face, setups in offered.layout(plan) if offered.layout else ():
             digest = hashlib.sha256(files[name]).hexdigest()
             programs.append(ProgramFile(name=name, face=face, setups=setups, sha256=digest))
-    complete = plan.model_copy(update={"programs": tuple(programs)})
+    named = {part.name for part in programs}
+    drawings = tuple(sorted(set(contents) - named - {PATTERN}))
+    complete = plan.model_copy(update={"programs": tuple(programs), "drawings": drawings})
     contents[JOB_SHEET] = jobsheet.write(complete, fold)
     contents[PLAN] = (complete.model_dump_json(indent=1) + "\n").encode()
-    write_all(folder, contents, stale=_programs_before(folder))
+    write_all(folder, contents, stale=_files_before(folder))
     return complete
 
 
-def _programs_before(folder: Path) -> list[str]:
+def _files_before(folder: Path) -> list[str]:
     try:
         before = Plan.model_validate_json((folder / PLAN).read_bytes())
     except (OSError, ValidationError):
         return []
-    return [program.name for program in before.programs if "/" not in program.name]
+    names = [*(program.name for program in before.programs), *before.drawings]
+    return [name for name in names if Path(name).name == name]

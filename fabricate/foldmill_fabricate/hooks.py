@@ -31,6 +31,10 @@ class Format:
     None for drawings."""
 
 
+HOOK_TYPES: dict[str, type] = {FORMATS: Format, MACHINES: Machine, MATERIALS: Material}
+"""What the values of each hook must be."""
+
+
 @hookspec
 def foldmill_formats() -> Iterable[Format]:
     """Return the file formats this plugin writes. Called once per registry."""

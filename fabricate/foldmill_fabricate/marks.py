@@ -14,8 +14,9 @@ from foldmill_fabricate.sheet import seen_by_machine, turned
 
 Floats = NDArray[np.float64]
 
-CATCH = 15.0
-"""mm around an expected hole within which a measured mark is taken for it."""
+CATCH = 12.0
+"""mm around an expected hole within which a measured mark is taken for it: far more than a sheet is
+laid askew, less than half of what a sheet turned the wrong way is off."""
 SCALE = 1e-3
 """Largest difference in scale that can be temperature; more is a wrong reading."""
 
@@ -61,6 +62,8 @@ def fit_marks(plan: Plan, measured: Sequence[tuple[float, float]]) -> MarkFit:
 
 
 def _matched(plan: Plan, measured: Floats) -> tuple[Floats, Floats]:
+    if not np.isfinite(measured).all():
+        raise CannotSend("A mark is no number; measure it again.")
     if not plan.holes:
         raise CannotSend("This job has no registration holes, so that marks mean nothing to it.")
     if len(measured) < 2:

@@ -50,7 +50,7 @@ class Gate(StrEnum):
 
 
 class _Value(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class Stroke(_Value):
@@ -205,3 +205,5 @@ class Plan(_Value):
     figures: Figures
     findings: tuple[Finding, ...] = ()
     programs: tuple[ProgramFile, ...] = ()
+    drawings: tuple[str, ...] = ()
+    """Names of the other files that were written beside it."""

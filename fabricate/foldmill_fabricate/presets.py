@@ -16,7 +16,9 @@ from foldmill.errors import UnreadableFile
 class Preset(BaseModel):
     """Base of material and machine models: frozen, closed, documented by attribute docstrings."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False
+    )
 
 
 M = TypeVar("M", bound=Preset)

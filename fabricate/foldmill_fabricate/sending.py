@@ -16,6 +16,7 @@ from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.folder import PATTERN, PLAN
 from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.marks import MarkFit, fit_marks
 from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
 from foldmill_fabricate.plotter import link, sender
@@ -27,8 +28,8 @@ from foldmill_fabricate.verify import Verification, verify, verify_folder
 class Operator(Protocol):
     """Whoever stands at the machine."""
 
-    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:
-        """Do what the gate asks for; False ends the job before the set-up starts."""
+    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:
+        """Do what the gate asks for, ``face`` up; False ends the job before the set-up starts."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +56,11 @@ class SimulatedOperator:
     def __init__(self, url: str) -> None:
         self._simulator = devices.behind(url)
 
-    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:  # noqa: ARG002
+    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:  # noqa: ARG002
         """Do it at once."""
         if gate is Gate.LOAD:
             self._simulator.new_sheet()
-        elif gate is Gate.FLIP:
+        if gate in {Gate.LOAD, Gate.FLIP} and self._simulator.sheet.up is not face:
             self._simulator.flip()
         return True
 
@@ -107,20 +108,31 @@ def send_job(
     """Send the programs of these faces in order of work, yielding after each.
 
     url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction. Raises
-    CannotSend where the operator says no, PlotterError where the line fails. It ends after a
-    program that the machine reports a fault for: what comes next would rest on a spoiled sheet.
+    CannotSend where the operator says no, PlotterError where the line fails. It ends early after
+    a program that ``goes_on`` says no to.
     """
     setups = {setup.number: setup for work in job.plan.passes for setup in work.setups}
-    for part in job.plan.programs:
-        if part.face not in faces:
-            continue
-        first = setups[part.setups[0]]
-        if not all(operator.ready(gate, first, job.plan) for gate in first.gates):
-            raise CannotSend(f"Stopped before {part.name}, as the operator said.")
-        with link.open_port(url, job.plan.machine) as port:
+    with link.open_port(url, job.plan.machine) as port:  # before anybody loads a sheet
+        for part in job.plan.programs:
+            if part.face not in faces:
+                continue
+            first = setups[part.setups[0]]
+            if not all(operator.ready(g, part.face, first, job.plan) for g in first.gates):
+                raise CannotSend(f"Stopped before {part.name}, as the operator said.")
             told = partial(tell, part)
-            program = job.programs[part.name]
-            delivery = sender.send(program, port, job.plan.machine, progress=told)
-        yield Sent(part, delivery)
-        if delivery.status is Status.FAULT:
-            return
+            delivery = sender.send(job.programs[part.name], port, job.plan.machine, progress=told)
+            yield Sent(part, delivery)
+            if not goes_on(delivery, job.plan.machine):
+                return
+
+
+def goes_on(delivery: Delivery, machine: Machine) -> bool:
+    """Tell whether the next program may follow.
+
+    Not after a fault, and not where a machine that can answer has not confirmed: it may still be
+    at work, and opening the next program would discard what it holds. A machine that never answers
+    goes on by the operator's word at the next gate.
+    """
+    if delivery.status is Status.UNCONFIRMED:
+        return not machine.serial.answers
+    return delivery.status is Status.EXECUTED

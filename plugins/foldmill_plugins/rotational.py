@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
 from pydantic import Field
 
-from foldmill import Angle, Count, Design, Fold, Params, hookimpl
-from foldmill.axisymmetric import rosette, strip
+from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
+from foldmill.axisymmetric import handles, rosette, strip, unfold
 from foldmill.axisymmetric.points import LinePoint, LinePoints
+from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
+from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
 
 
 def _points(words: str) -> dict[int, LinePoint]:
@@ -38,7 +43,28 @@ def generate(params: RotationalParams) -> Fold:
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    return rosette.fold(rosette.assemble(rosette.HalfWedge.of(solved)), wedge_decides=True)
+    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
+    opening = unfold.motion(rose, params.n, params.phi, params.points)
+    return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
+
+
+def _closed_signs(rose: Rosette, params: RotationalParams) -> EdgeSigns:
+    """Return the sign of creases that φ closes to ±180: the one they have just before they close.
+
+    Creases that stay closed whatever φ is get none.
+    """
+    near = min(max(params.phi, NEARLY_CLOSED_DEG), 180 - NEARLY_CLOSED_DEG)
+    if near == params.phi:
+        return {}
+    try:
+        half = rosette.HalfWedge.of(strip.solve(params.n, near, dict(params.points)))
+    except ImpossibleGeometry:  # the form exists at its very end alone
+        return {}
+    ajar = rose.moved(half).fold_angles
+    moves = np.abs(ajar) < 180 - CLOSED_DEG
+    pairs, signs = rose.edge_origins[moves].tolist(), np.sign(ajar[moves])
+    return {(a, b): int(sign) for (a, b), sign in zip(pairs, signs, strict=True)}
 
 
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from pydantic import Field, ValidationError
 
 from foldmill import (
+    Coordinate,
     CreasePattern,
     Design,
     Fold,
+    ImpossibleGeometry,
     InvalidParameters,
     Length,
     Params,
+    PluginFault,
     UnknownName,
 )
 
@@ -20,6 +26,8 @@ from foldmill import (
 class StripParams(Params):
     side: Length = Field(default=100.0, le=2000)
     """Side of the square."""
+    shift: Coordinate = Field(default=0.0, ge=-50)
+    """Where the square begins."""
     folds: bool = True
     """Whether the diagonal folds."""
 
@@ -49,7 +57,7 @@ def test_a_run_records_which_design_and_parameters_it_was() -> None:
     assert fold.meta["design"] == {
         "slug": "diagonal",
         "version": "1",
-        "params": {"side": 50.0, "folds": True},
+        "params": {"side": 50.0, "shift": 0.0, "folds": True},
     }
 
 
@@ -67,11 +75,28 @@ def test_the_schema_states_unit_bounds_and_meaning() -> None:
     assert side["description"] == "Side of the square."
 
 
+class Plain(Params):
+    side: Length = 10.0
+    """A length with no bounds of its own."""
+    shift: Coordinate = 0.0
+    """A coordinate with no bounds of its own."""
+
+
+@pytest.mark.parametrize(
+    "values", [{"side": 1e5}, {"side": 1e200}, {"shift": 1e5}, {"shift": -1e5}, {"side": 0}]
+)
+def test_no_length_and_no_coordinate_reaches_a_hundred_metres(values: dict[str, float]) -> None:
+    with pytest.raises(ValidationError):
+        Plain.model_validate(values)
+
+
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
         ({"side": 0}, r"side: Input should be greater than 0 \(got 0\)\."),
         ({"side": 3000}, r"side: Input should be less than or equal to 2000 \(got 3000\)\."),
+        ({"shift": -51}, r"shift: Input should be greater than or equal to -50 \(got -51\)\."),
+        ({"shift": 1e200}, r"shift: Input should be less than 100000 \(got 1e\+200\)\."),
         ({"side": float("nan")}, "side: Input should be a finite number"),
         ({"side": "long"}, r"side: .* valid number.* \(got 'long'\)\."),
         ({"width": 3}, r"width: Extra inputs are not permitted \(got 3\)\."),
@@ -92,6 +117,44 @@ def test_every_fault_gets_its_sentence() -> None:
 def test_an_unknown_preset_is_answered_with_the_known_ones() -> None:
     with pytest.raises(UnknownName, match=r"no preset of diagonal 'a5'. There are: a4\."):
         DIAGONAL.preset("a5")
+
+
+def nothing(params: StripParams) -> Any:
+    return None
+
+
+def divided(params: StripParams) -> Fold:
+    raise ZeroDivisionError("by\nnothing")
+
+
+def leaving(params: StripParams) -> Fold:
+    raise SystemExit(3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"generate": nothing}, "its generate returns NoneType, not a Fold"),
+        ({"generate": divided}, "fails with ZeroDivisionError: by nothing. Other parameters may"),
+        ({"generate": leaving}, "fails with SystemExit: 3"),
+        ({"generate": None}, "its generate is None, which is no function"),
+        ({"params": dict}, "its params are <class 'dict'>, which is no kind of Params"),
+        ({"title": None}, "its title is None, which is no text"),
+        ({"presets": None}, "its presets are no mapping"),
+    ],
+)
+def test_a_family_that_breaks_is_named(changes: dict[str, Any], sentence: str) -> None:
+    broken: Design[Any] = replace(DIAGONAL, **changes)
+    with pytest.raises(PluginFault, match=f"The family 'diagonal' is broken: .*{sentence}"):
+        broken.run()
+
+
+def test_what_a_family_refuses_stays_its_own_sentence() -> None:
+    def refusing(params: StripParams) -> Fold:
+        raise ImpossibleGeometry("Point 3 has no place.")
+
+    with pytest.raises(ImpossibleGeometry, match=r"^Point 3 has no place\.$"):
+        replace(DIAGONAL, generate=refusing).run()
 
 
 def test_parameters_cannot_be_changed() -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from foldmill.schema import Bound, leaves, objects, outside, placed
+from foldmill.schema import Bound, inside, leaves, objects, outside, placed
 from foldmill_plugins.tuck import DESIGN
 
 SCHEMA = DESIGN.schema()
@@ -49,3 +49,16 @@ def test_placing_a_value_leaves_the_others_as_they_were() -> None:
     assert changed["points"]["3"]["a"] == 999.0
     assert STOOL["points"]["3"]["a"] == 172.48
     assert changed["tucks"] == STOOL["tucks"]
+
+
+@pytest.mark.parametrize(
+    ("bound", "is_integer", "within"),
+    [
+        (Bound(72, 1, False), True, 72),
+        (Bound(0, -1, True), True, 1),
+        (Bound(0, -1, True), False, 5e-324),
+        (Bound(180, 1, True), False, 179.99999999999997),
+    ],
+)
+def test_the_last_number_within_a_bound(bound: Bound, is_integer: bool, within: float) -> None:
+    assert inside(bound, is_integer) == within

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from pydantic import BaseModel, Field
 
-from foldmill import CreasePattern, Design, Fold, FoldedForm, Length, Params
+from foldmill import CreasePattern, Design, Fold, FoldedForm, Length, Params, Symmetry
+from foldmill.pattern import codes_of
 from foldmill.testing import design_checks
 
 
@@ -104,6 +105,44 @@ def stretched(params: Any) -> Fold:
     return Fold(pattern, FoldedForm(solid))
 
 
+class Forgetful(Params):
+    sizes: dict[int, Length] = Field(default_factory=lambda: {1: 10.0})
+    """Sizes, which generate forgets."""
+
+
+def emptied(params: Any) -> Fold:
+    params.sizes.clear()
+    return square(params)
+
+
+def failing_at_the_end(params: Any) -> Fold:
+    """Return a square, which nobody may ask to be as large as it can be."""
+    return square(SquareParams(side=100 / (500 - params.side)))
+
+
+def torn_at_the_end(params: Any) -> Fold:
+    return stretched(params) if params.side == 500 else square(params)
+
+
+def undecided(params: Any) -> Fold:
+    sheet = square(params).pattern
+    letters = sheet.letters().replace("V", "U")
+    return Fold(CreasePattern.from_lines(sheet.vertices, sheet.edges, letters))
+
+
+def claiming(order: int, wedge: list[int]) -> Callable[[Any], Fold]:
+    """Return a design whose flat square is said to be symmetric."""
+
+    def claimed(params: Any) -> Fold:
+        pattern = square(params).pattern
+        flat = np.zeros(len(pattern.edges))
+        sheet = replace(pattern, assignments=codes_of("BBBBF"), fold_angles=flat)
+        solid = np.column_stack([pattern.vertices, np.zeros(4)])
+        return Fold(sheet, FoldedForm(solid), Symmetry(order, np.array(wedge), True))
+
+    return claimed
+
+
 @pytest.mark.parametrize(
     ("changes", "check", "said"),
     [
@@ -121,6 +160,16 @@ def stretched(params: Any) -> Fold:
         ({"generate": lambda p: square(p).pattern}, "returns-a-fold[small]", "CreasePattern"),
         ({"generate": shaky()}, "deterministic[small]", "two different patterns"),
         ({"generate": stretched}, "without-errors[small]", "Folding changes the length"),
+        (
+            {"params": Forgetful, "generate": emptied},
+            "params-untouched[defaults]",
+            "generate changes the parameters",
+        ),
+        ({"generate": failing_at_the_end}, "corners-answered", "At side = 500"),
+        ({"generate": torn_at_the_end}, "corners-answered", "At side = 500"),
+        ({"generate": undecided}, "assigned[small]", "1 creases are neither mountain"),
+        ({"generate": claiming(3, [0])}, "symmetric[small]", "turned 3 times, is not the whole"),
+        ({"generate": claiming(1, [0])}, "symmetric[small]", "half wedge crosses the axis"),
     ],
 )
 def test_a_careless_design_is_told(changes: dict[str, Any], check: str, said: str) -> None:
@@ -132,10 +181,26 @@ def test_a_careless_design_is_told(changes: dict[str, Any], check: str, said: st
     assert said in str(failure.value)
 
 
+def test_a_design_that_returns_nothing_is_told_so_by_every_check_of_a_case() -> None:
+    empty = replace(GOOD, generate=lambda _: None)  # type: ignore[arg-type,return-value]
+    said = failures(empty)
+    assert {name for name in said if "[" in name} == {
+        check.name for check in design_checks(GOOD) if "[" in check.name
+    }
+    assert all("NoneType, not a Fold" in sentence for sentence in said.values())
+    assert "corners-answered" in said
+
+
+def test_creases_may_stay_unassigned_where_that_is_said() -> None:
+    expected = {f"assigned[{case}]": "for the reader" for case in ("defaults", "small")}
+    for check in design_checks(replace(GOOD, generate=undecided), expected):
+        check()
+
+
 def test_what_is_expected_to_fail_passes_while_it_fails() -> None:
     design = replace(GOOD, generate=stretched)
-    expected = {f"without-errors[{case}]": "a joke" for case in ("defaults", "small")}
-    for check in design_checks(design, expected):
+    names = ("without-errors[defaults]", "without-errors[small]", "corners-answered")
+    for check in design_checks(design, dict.fromkeys(names, "a joke")):
         check()
 
 

@@ -107,10 +107,13 @@ def test_the_same_job_gives_the_same_bytes(tmp_path: Path) -> None:
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
 
-def test_a_new_plan_leaves_no_program_of_the_old_one(tmp_path: Path) -> None:
-    folder.write(stool(), stool_plan(ONE_TOOL), tmp_path, ["hpgl"])
+def test_a_new_plan_leaves_no_file_of_the_old_one(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("kept")
+    folder.write(stool(), stool_plan(ONE_TOOL), tmp_path, ["dxf", "hpgl"])
     folder.write(stool(), stool_plan(PENS), tmp_path, ["hpgl"])
-    assert {path.name for path in tmp_path.glob("*.hpgl")} == {"front.hpgl", "reverse.hpgl"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("front.hpgl", "reverse.hpgl", "job-sheet.pdf", "mine.txt", "pattern.fold", "plan.json"),
+    }
 
 
 @pytest.mark.parametrize("slug", [ONE_TOOL, PENS])

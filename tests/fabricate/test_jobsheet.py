@@ -198,8 +198,15 @@ def test_what_planning_found_is_told_once_per_kind() -> None:
     assert "2 more" in only
 
 
-def test_a_job_without_flip_or_holes_says_so(tmp_path: Path) -> None:
-    plain = PLAN.model_copy(update={"passes": PLAN.passes[1:], "holes": ()})
+def test_a_job_without_holes_says_what_to_do_instead(tmp_path: Path) -> None:
+    plain = PLAN.model_copy(update={"holes": ()})
     text = said(jobsheet.write(plain, hand_made.fold()), tmp_path)
+    assert "No registration holes: lay the sheet" in text
+
+
+def test_a_job_on_one_face_speaks_of_no_second_pass(tmp_path: Path) -> None:
+    single = PLAN.model_copy(update={"passes": PLAN.passes[1:], "holes": ()})
+    text = said(jobsheet.write(single, hand_made.fold()), tmp_path)
     assert "the sheet is not turned over" in text
-    assert "No registration holes" in text
+    assert "both passes" not in text
+    assert "registration holes" not in text.lower()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from foldmill import Fold, InvalidParameters
+from foldmill.check import assignment
 from foldmill.check.intersection import penetrations
 from foldmill_plugins.rotational import DESIGN, RotationalParams
 
@@ -51,6 +52,19 @@ def test_turning_phi_towards_ninety_unfolds_the_sheet() -> None:
     assert heights[0] > heights[1] > heights[2] == 0
 
 
+@PRESETS
+@pytest.mark.parametrize(("shut", "ajar"), [(0, 0.02), (1e-5, 0.02), (180, 179.98)])
+def test_a_crease_that_phi_closes_keeps_the_sign_it_had_before(
+    name: str, shut: float, ajar: float
+) -> None:
+    values = DESIGN.preset(name).model_dump()
+    closed, before = (DESIGN.run(values | {"phi": phi}) for phi in (shut, ajar))
+    assert np.abs(closed.pattern.fold_angles).max() == 180
+    assert closed.pattern.letters() == before.pattern.letters()
+    assert "U" not in closed.pattern.letters()
+    assert not assignment(closed).findings
+
+
 def test_every_point_adds_a_ring_of_triangles() -> None:
     assert isinstance(DESIGN.preset("bowl-n8"), RotationalParams)
     faces = [
@@ -89,6 +103,23 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
         (
             {"points": FOUR | {3: {"a": 40}}},
             "Point 3 must lie farther out than point 1: a = 40 mm, but point 1 is at 40 mm",
+        ),
+        ({"points": FOUR | {4: {"a": 1e200}}}, r"points\.4\.a: Input should be less than 100000"),
+        (
+            {"points": FOUR | {1: {"a": 1e-9}}},
+            r"Point 1 lies on the centre: 1e-09 mm are less than",
+        ),
+        (
+            {"points": FOUR | {3: {"a": float(np.nextafter(40, 41))}}},
+            r"Point 3 lies on point 1: 7.1e-15 mm are less than",
+        ),
+        (
+            {"n": 72, "points": FOUR | {1: {"a": 1.1e-6}, 2: {"a": 1.2e-6}}},
+            "Point 2 lies on point 1: 1.1e-07 mm are less than",
+        ),
+        (
+            {"points": {i: {"a": 10.0 * i} for i in range(1, 202)}},
+            "points: a half wedge takes 200 points at most, not 201; leave out some",
         ),
         ({"points": FOUR | {4: {"a": 61}}}, "Point 4 must lie farther out than point 2"),
         (

@@ -9,6 +9,9 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from foldmill.design import Angle, Coordinate, Length, Params
 
+MOST_POINTS = 200
+"""Points of one half wedge. Designs have 4 to 20; ten times as many are a slip of the hand."""
+
 
 class LinePoint(Params):
     """A point on its symmetry line: the flat pattern drives the folded form."""
@@ -34,11 +37,15 @@ Point = TypeVar("Point", bound=Params)
 
 
 def consecutive(points: Mapping[int, Point]) -> Mapping[int, Point]:
-    """Refuse points that are not numbered 1, 2, 3 …, or fewer than two."""
+    """Refuse points that are not numbered 1, 2, 3 …, fewer than two, or more than MOST_POINTS."""
     if list(points) != list(range(1, len(points) + 1)):
         raise ValueError(f"the points must be numbered 1, 2, 3 …, not {sorted(points)}")
     if len(points) < 2:
         raise ValueError("a facet needs points 1 and 2 beside the centre; add the missing ones")
+    if len(points) > MOST_POINTS:
+        raise ValueError(
+            f"a half wedge takes {MOST_POINTS} points at most, not {len(points)}; leave out some"
+        )
     return points
 
 

@@ -73,18 +73,33 @@ def solve(order: int, phi: float, points: Mapping[int, LinePoint | FreePoint]) -
     flat[1] = (first.a, 0.0)
     tilt = np.radians(phi)
     meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
+    _refuse_near(1, flat)
     off_line = []
     for i in range(2, count):
         point = points[i]
         if isinstance(point, LinePoint):
             flat[i] = _on_line(i, point, flat, theta)
+            _refuse_near(i, flat)
             meridian[i] = _place(i, point, flat, meridian, theta)
         else:
             meridian[i] = (point.r, point.z)
             flat[i] = _unfold(i, flat, meridian, theta)
+            _refuse_near(i, flat)
             if _is_off_line(i, flat, theta):
                 off_line.append(i)
     return Strip(order, flat, meridian, tuple(off_line))
+
+
+def _refuse_near(i: int, flat: Floats) -> None:
+    """Refuse p_i where an edge from it to a point before it would have no length."""
+    for j in range(max(0, i - 2), i):
+        away = float(np.hypot(*(flat[i] - flat[j])))
+        if away < COINCIDENT_MM:
+            other = f"point {j}" if j else "the centre"
+            raise InvalidParameters(
+                f"Point {i} lies on {other}: {away:.2g} mm are less than the {COINCIDENT_MM:g} mm "
+                f"that tell two points apart. Move point {i} outwards."
+            )
 
 
 def _sine(degrees: float) -> float:

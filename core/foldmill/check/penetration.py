@@ -2,7 +2,8 @@
 
 Where every signed radius of a rotationally symmetric form has one sign, the facets of one half
 wedge decide for the whole form (the wedge theorem: mirrored and turned copies stay on their own
-side of the planes between them). Otherwise all pairs of facets are looked at.
+side of the planes between them). A file or a plugin may claim that of any form, so it is looked at
+first (``foldmill.check.symmetry``). Otherwise all pairs of facets are looked at.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 
 from foldmill.check.intersection import penetrations
 from foldmill.check.report import Report, counted, not_checked
+from foldmill.check.symmetry import half_wedge_decides
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.folded import FoldedForm
@@ -37,9 +39,12 @@ def penetration(fold: Fold) -> Report:
 
 
 def penetrating_faces(fold: Fold, folded: FoldedForm) -> Indices:
-    """Return the pairs of faces (k, 2) that penetrate, by the half wedge where that decides."""
+    """Return the pairs of faces (k, 2) that penetrate.
+
+    By the half wedge first, where that decides; all pairs are counted once one is found.
+    """
     pattern, symmetry = fold.pattern, fold.symmetry
-    if symmetry is not None and symmetry.one_sided:
+    if symmetry is not None and half_wedge_decides(symmetry, folded.vertices, pattern.faces):
         within = penetrations(folded.vertices, pattern.edges, pattern.faces[symmetry.wedge])
         if not len(within):
             return np.zeros((0, 2), np.intp)

@@ -94,14 +94,23 @@ def _symmetry(frame: Frame, sheet: Sheet) -> Symmetry | None:
     stated, count = frame.get(SYMMETRY), len(sheet.pattern.faces)
     if stated is None:
         return None
-    try:
-        order, one_sided = int(stated["order"]), stated["one_sided"] is True
-        wedge = np.array(stated["wedge"], np.intp).reshape(-1)
-    except (TypeError, ValueError, KeyError, OverflowError):
-        raise UnreadableFile(f"{SYMMETRY} must have an order, a wedge and one_sided.") from None
-    if order < 1 or ((wedge < 0) | (wedge >= count)).any():
+    order, wedge, one_sided = _stated_symmetry(stated)
+    if order < 1 or any(not 0 <= face < count for face in wedge):
         raise UnreadableFile(f"{SYMMETRY} names faces that are not there, or an order below 1.")
-    return Symmetry(order, wedge, one_sided)
+    return Symmetry(order, np.array(wedge, np.intp), one_sided)
+
+
+def _stated_symmetry(stated: Any) -> tuple[int, list[int], bool]:
+    frame: Frame = stated if isinstance(stated, dict) else {}
+    order, wedge, one_sided = (frame.get(key) for key in ("order", "wedge", "one_sided"))
+    numbers: list[Any] = [order, *wedge] if isinstance(wedge, list) else [None]
+    is_whole = all(isinstance(n, int) and not isinstance(n, bool) for n in numbers)
+    if not is_whole or not isinstance(one_sided, bool):
+        raise UnreadableFile(
+            f"{SYMMETRY} must have a whole order, a wedge of face numbers and a true or false "
+            f"one_sided."
+        )
+    return numbers[0], numbers[1:], one_sided
 
 
 def write(fold: Fold, *, triangulated: bool = False) -> str:

@@ -11,7 +11,7 @@ import sys
 import typer
 
 from foldmill.errors import FoldmillError
-from foldmill_fabricate.cli import catalogue, designing, making, running
+from foldmill_fabricate.cli import catalogue, designing, making, moving, running
 
 app = typer.Typer(
     name="foldmill",
@@ -24,6 +24,7 @@ app = typer.Typer(
 )
 catalogue.add_to(app)
 designing.add_to(app)
+moving.add_to(app)
 making.add_to(app)
 running.add_to(app)
 
@@ -34,10 +35,11 @@ def main() -> None:
         app()
     except FoldmillError as error:
         _stop(str(error))
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError, PermissionError) as error:
-        _stop(f"{error.filename}: {(error.strerror or 'cannot be read').lower()}.")
     except BrokenPipeError:
         sys.stderr.close()  # the reader of our output has gone; that is no fault
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        _stop(f"{place}{(error.strerror or str(error)).lower()}.")
 
 
 def _stop(sentence: str) -> None:

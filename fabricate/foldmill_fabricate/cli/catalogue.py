@@ -81,5 +81,5 @@ def _presets(hook: str, kind: str, show: str | None, as_json: bool) -> None:
         say(as_json, data, table([row[:2] for row in found]))
         return
     value = registry.get(hook, kind, show)
-    fields = {name: f"{shown} {unit}".strip() for name, shown, unit, _ in rows(type(value), value)}
+    fields = {row.name: f"{row.value} {row.unit}".strip() for row in rows(value)}
     say(as_json, value.model_dump(mode="json"), figure_lines(fields))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from foldmill import Design, Fold, FoldmillError
+from foldmill.finding import Finding, Severity, has_errors
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -43,6 +46,9 @@ def design(
     ] = None,
     preset: Annotated[str | None, typer.Option(help="Start from a preset.")] = None,
     params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Write it even where it does not fold; it is marked.")
+    ] = False,
     help_wanted: Annotated[
         bool, typer.Option("--help", help="Show a family's parameters.")
     ] = False,
@@ -54,6 +60,7 @@ def design(
     lists them with units.
     """
     from foldmill import installed
+    from foldmill.check import check as check_fold
     from foldmill_fabricate.cli.parameters import gather
 
     if family is None:
@@ -64,9 +71,23 @@ def design(
         typer.echo(_describe(offered, preset))
         return
     fold = offered.run(gather(offered, preset, params, context.args))
-    if output is not None:
-        save(fold, output)
-    say(as_json, _summary(fold), figure_lines(_summary(fold)))
+    found = check_fold(fold).findings
+    if output is not None and (force or not has_errors(found)):
+        save(_marked(fold, found), output)
+    data = {**_summary(fold), "findings": finding_data(found)}
+    say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
+    if has_errors(found) and not force:
+        raise FoldmillError("It does not fold, so nothing is written; --force writes it, marked.")
+
+
+def _marked(fold: Fold, found: Sequence[Finding]) -> Fold:
+    """Put the codes of its errors into the fold, so that the file says what it is."""
+    codes = sorted({finding.code for finding in found if finding.severity is Severity.ERROR})
+    if not codes:
+        return fold
+    kept = dict(fold.meta.get("fold", {}))
+    kept["frame"] = {**kept.get("frame", {}), "foldmill:errors": codes}
+    return replace(fold, meta={**fold.meta, "fold": kept})
 
 
 def show(
@@ -126,14 +147,13 @@ def _bytes(fold: Fold, file: Path) -> bytes:
     raise FoldmillError(f"{file}: write .fold .svg .png .glb .stl or .obj, not {suffix or 'that'}.")
 
 
-def _describe(design: Design, preset: str | None) -> str:  # type: ignore[type-arg]
+def _describe(design: Design[Any], preset: str | None) -> str:
     from foldmill_fabricate.cli.parameters import rows
 
     values = design.preset(preset) if preset else design.params()
-    listed = list(rows(design.params, values))
     head = f"{design.slug}: {design.title}\npresets: {', '.join(design.presets) or 'none'}\n"
-    lines = [(f"--{name}", value, unit, about) for name, value, unit, about in listed]
-    return head + table([("PARAMETER", "VALUE", "UNIT", ""), *lines])
+    lines = [(f"--{row.name}", row.value, row.unit, row.bounds, row.about) for row in rows(values)]
+    return head + table([("PARAMETER", "VALUE", "UNIT", "RANGE", ""), *lines])
 
 
 def _summary(fold: Fold) -> dict[str, object]:

@@ -7,52 +7,95 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from foldmill import Design, InvalidParameters, Params, UnreadableFile
+from foldmill.schema import Leaf, leaves
 
 
 def gather(
     design: Design[Any], preset: str | None, file: Path | None, options: Sequence[str]
 ) -> Params:
-    """Return parameters: the preset's or the defaults, then the file's, then the options'."""
+    """Return parameters: the preset's or the defaults, then the file's, then the options'.
+
+    What the file states replaces what was there, whole: a file with three points has three.
+    """
     base = design.preset(preset) if preset else design.params()
     values: dict[str, Any] = base.model_dump()
     if file is not None:
-        for path, value in _leaves(_toml(file)):
-            _put(values, path, value)
-    for name, text in _pairs(options):
-        _put(values, name.split("."), _value(text))
+        values |= _toml(file)
+    pairs = [(name.split("."), _value(text)) for name, text in _pairs(options)]
+    _start_anew(values, pairs)
+    for path, value in pairs:
+        _put(values, path, value)
     params: Params = design.validate(values)
     return params
 
 
-def rows(model: type[BaseModel], values: BaseModel) -> Iterator[tuple[str, str, str, str]]:
-    """Yield name, value, unit and documentation of every parameter, nested ones by dotted name."""
-    for name, info in model.model_fields.items():
-        extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
-        unit = str(extra.get("x-unit", ""))
-        about = " ".join((info.description or "").split())
-        yield from _rows(name, getattr(values, name), unit, about)
+def _start_anew(values: dict[str, Any], pairs: Sequence[tuple[list[str], Any]]) -> None:
+    """Empty each object that an option gives a value it does not have: it becomes another kind.
+
+    So ``--points.5.r 100 --points.5.z -140`` makes a point on its line a free one.
+    """
+    for path in {tuple(path[:-1]) for path, _ in pairs if len(path) > 1}:
+        held = _at(values, path)
+        given = {own[-1] for own, _ in pairs if tuple(own[:-1]) == path}
+        if (
+            isinstance(held, dict)
+            and all(isinstance(key, str) for key in held)
+            and given - set(held)
+        ):
+            held.clear()
 
 
-def _rows(name: str, value: Any, unit: str, about: str) -> Iterator[tuple[str, str, str, str]]:
-    if isinstance(value, BaseModel):
-        for row in rows(type(value), value):
-            yield (f"{name}.{row[0]}", *row[1:])
-    elif isinstance(value, Mapping):
-        for key, each in value.items():
-            yield from _rows(f"{name}.{key}", each, unit, about)
-    elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
-        for key, each in enumerate(value):
-            yield from _rows(f"{name}.{key}", each, unit, about)
-    else:
-        shown = "" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
-        yield (name, shown, unit, about)
+def _at(values: Any, path: Sequence[str]) -> Any:
+    """Return what stands at a dotted path, or None."""
+    for part in path:
+        if isinstance(values, list | tuple):
+            values = values[int(part)] if part.isdigit() and int(part) < len(values) else None
+        elif isinstance(values, dict):
+            values = values.get(int(part) if part.isdigit() else part, values.get(part))
+        else:
+            return None
+    return values
+
+
+class Row(NamedTuple):
+    """One parameter for people."""
+
+    name: str
+    value: str
+    unit: str
+    bounds: str
+    about: str
+
+
+def rows(values: BaseModel) -> Iterator[Row]:
+    """Yield every parameter of a model, nested ones by dotted name."""
+    plain = values.model_dump(mode="json")
+    for leaf in leaves(values.model_json_schema(), plain):
+        if leaf.schema.get("type") == "null":
+            continue  # an optional value is told once, by what it may be
+        about = " ".join(str(leaf.schema.get("description", "")).split())
+        yield Row(
+            leaf.name, _shown(_at(plain, leaf.name.split("."))), leaf.unit, _range(leaf), about
+        )
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _range(leaf: Leaf) -> str:
+    low = next((f"{b.value:g}" for b in leaf.bounds if b.side < 0), "")
+    high = next((f"{b.value:g}" for b in leaf.bounds if b.side > 0), "")
+    return f"{low}…{high}" if low or high else ""
 
 
 def _toml(file: Path) -> dict[str, Any]:
@@ -60,16 +103,6 @@ def _toml(file: Path) -> dict[str, Any]:
         return tomllib.loads(file.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise UnreadableFile(f"{file} is no TOML file: {error}.") from None
-
-
-def _leaves(values: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[list[str], Any]]:
-    items = values.items() if isinstance(values, dict) else enumerate(values)
-    for key, value in items:
-        here = (*path, str(key))
-        if isinstance(value, dict | list):
-            yield from _leaves(value, here)
-        else:
-            yield list(here), value
 
 
 def _pairs(options: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import StrEnum
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,7 +18,7 @@ from foldmill_fabricate.cli.making import Folder
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.passes import Gate, Plan, ProgramFile, SetUp
+    from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
     from foldmill_fabricate.plotter.sender import Progress
     from foldmill_fabricate.sending import Operator
 
@@ -56,25 +60,46 @@ def send(
     A software stop (Ctrl-C) is no emergency stop: keep a hand near the machine's own.
     """
     from foldmill_fabricate.passes import Face
-    from foldmill_fabricate.plotter.sender import Status
-    from foldmill_fabricate.sending import open_job, send_job
+    from foldmill_fabricate.sending import goes_on, open_job, send_job
 
+    if draw is not None and not port.startswith("sim://"):
+        raise FoldmillError("--draw shows what a sim:// plotter cut; a real one shows it itself.")
     job = open_job(path, read_marks(marks))
     faces = [Face(only.value)] if only else list(Face)
-    if job.fit and not as_json:
-        typer.echo(f"The reverse is fitted to the marks: {job.fit}")
+    if job.fit:
+        typer.echo(f"The reverse is fitted to the marks: {job.fit}", err=as_json)
     done = []
-    bar = None if as_json else ProgressLine()
-    for sent in send_job(job, port, _operator(port, yes), faces, *([bar.tell] if bar else [])):
-        done.append(sent)
-        if bar:
-            bar.end(f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}".rstrip())
+    bar = ProgressLine(as_json)
+    with stopping_on_signals():
+        for sent in send_job(job, port, _operator(port, yes), faces, bar.tell):
+            done.append(sent)
+            told = f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}"
+            bar.end(told.rstrip())
     if draw is not None:
-        _draw(port, draw)
+        _draw(port, draw, as_json)
     if as_json:
         say(True, [{"program": s.program.name, "delivery": vars(s.delivery)} for s in done], "")
-    if any(sent.delivery.status is Status.FAULT for sent in done):
+    if not all(goes_on(sent.delivery, job.plan.machine) for sent in done):
+        typer.echo(
+            "The job is not finished; look at the sheet before anything is cut again.", err=True
+        )
         raise typer.Exit(1)
+
+
+@contextmanager
+def stopping_on_signals() -> Iterator[None]:
+    """Treat SIGTERM and SIGHUP as Ctrl-C: the sender stops the machine before it leaves."""
+
+    def interrupt(number: int, _frame: object) -> None:
+        raise KeyboardInterrupt(signal.Signals(number).name)
+
+    names = [getattr(signal, name, None) for name in ("SIGTERM", "SIGHUP")]
+    before = {number: signal.signal(number, interrupt) for number in names if number}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def simulate(
@@ -84,7 +109,9 @@ def simulate(
     pty: Annotated[
         Path | None, typer.Option(help="Offer a serial port, with this symbolic link to it.")
     ] = None,
-    tcp: Annotated[int | None, typer.Option(help="Offer a TCP port of this number.")] = None,
+    tcp: Annotated[
+        int | None, typer.Option(min=1, max=65535, help="Offer a TCP port of this number.")
+    ] = None,
     draw: Annotated[Path | None, typer.Option(help="A folder for front and reverse.")] = None,
     speed_up: Annotated[float, typer.Option(help="How many times faster than the machine.")] = 1.0,
     buffer: Annotated[int | None, typer.Option(help="Bytes of its buffer.")] = None,
@@ -121,25 +148,27 @@ def demo(
 class Person:
     """The operator at a terminal: told what to do, asked to press Enter."""
 
-    def ready(self, gate: Gate, setup: SetUp, plan: Plan) -> bool:
+    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:
         """Print what the gate asks for, and wait."""
-        typer.echo(instruction(gate, setup, plan))
+        typer.echo(instruction(gate, face, setup, plan), err=True)
+        question = "Enter to go on, q to stop"
         try:
-            answer = typer.prompt("Enter to go on, q to stop", default="", show_default=False)
+            answer = typer.prompt(question, default="", show_default=False, err=True)
         except typer.Abort:
             return False
         return not str(answer).strip().lower().startswith("q")
 
 
-def instruction(gate: Gate, setup: SetUp, plan: Plan) -> str:
-    """Return in words what the operator has to do."""
-    from foldmill_fabricate.passes import Gate
+def instruction(gate: Gate, face: Face, setup: SetUp, plan: Plan) -> str:
+    """Return in words what the operator has to do before a set-up on that face."""
+    from foldmill_fabricate.passes import Face, Gate
 
     if gate is Gate.LOAD:
+        side = "front (outside)" if face is Face.FRONT else "reverse (inside)"
         return (
             f"Load a {plan.sheet.width:g} × {plan.sheet.height:g} mm sheet of "
             f"{plan.material.title} on the mat, its lower left corner at "
-            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the front (outside) up."
+            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the {side} up."
         )
     if gate is Gate.FLIP:
         side = "bottom" if plan.flip.kind == "left-right" else "left"
@@ -157,15 +186,19 @@ def read_marks(text: str) -> list[tuple[float, float]]:
     """Read x1,y1;x2,y2;… in mm."""
     try:
         pairs = [mark.split(",") for mark in text.split(";") if mark.strip()]
-        return [(float(x), float(y)) for x, y in pairs]
+        read = [(float(x), float(y)) for x, y in pairs]
+        if not all(isfinite(value) for mark in read for value in mark):
+            raise ValueError
     except ValueError:
         raise FoldmillError(f"--marks: write x1,y1;x2,y2;… in mm, not {text!r}.") from None
+    return read
 
 
 class ProgressLine:
     """How far a program is: a bar on a terminal, one line per program elsewhere."""
 
-    def __init__(self) -> None:
+    def __init__(self, aside: bool = False) -> None:
+        self._aside = aside
         self._live = sys.stderr.isatty()
         self._shown = -1
 
@@ -181,7 +214,7 @@ class ProgressLine:
         if self._live:
             typer.echo("\r\033[K", nl=False, err=True)
         self._shown = -1
-        typer.echo(line)
+        typer.echo(line, err=self._aside)
 
 
 def _operator(url: str, yes: bool) -> Operator:
@@ -197,12 +230,10 @@ def _operator(url: str, yes: bool) -> Operator:
     return SimulatedOperator(url)
 
 
-def _draw(url: str, folder: Path) -> None:
+def _draw(url: str, folder: Path, aside: bool) -> None:
     from foldmill_fabricate.plotter.simulator import devices
     from foldmill_fabricate.plotter.simulator.draw import draw
 
-    if not url.startswith("sim://"):
-        raise FoldmillError("--draw shows what a sim:// plotter cut; a real one shows it itself.")
     simulator = devices.behind(url)
     for path in draw(simulator.sheet, simulator.machine, folder):
-        typer.echo(f"drawn: {path}")
+        typer.echo(f"drawn: {path}", err=aside)

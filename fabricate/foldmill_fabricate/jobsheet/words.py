@@ -164,6 +164,8 @@ def findings(plan: Plan) -> list[str]:
 
 def temperature(plan: Plan) -> str:
     """Return why both passes belong into one session, with a place for the temperatures."""
+    if len(plan.passes) < 2:
+        return "Temperature: ____ °C."
     span = max(plan.sheet.width, plan.sheet.height)
     drift = plan.material.expansion * 1e-6 * span
     return (

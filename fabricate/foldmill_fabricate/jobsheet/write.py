@@ -90,6 +90,8 @@ def _add_flip(page: Paper, plan: Plan) -> None:
 
 
 def _add_holes(page: Paper, plan: Plan) -> None:
+    if len(plan.passes) < 2:
+        return
     if not plan.holes:
         page.heading("No registration holes: lay the sheet's edges against stops in both passes")
         return

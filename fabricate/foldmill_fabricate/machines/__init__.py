@@ -25,7 +25,7 @@ class Bed(Preset):
 class Axes(Preset):
     """From sheet coordinates on the carrier (x right, y up) to machine steps."""
 
-    units_per_mm: StepsPerMm = Field(gt=0)
+    units_per_mm: StepsPerMm = Field(ge=1, le=10_000)
     swap: bool = False
     """Whether the machine calls y what the sheet calls x."""
     lowest: int = 0

@@ -48,24 +48,55 @@ class Camera:
         return np.array([right, np.cross(toward, right), toward])
 
 
-def render(fold: Fold, camera: Camera, pixels: int) -> Floats:
+@dataclass(frozen=True, eq=False)
+class Ball:
+    """A ball that holds a form, or all the forms of a motion: what a fixed camera has in view."""
+
+    middle: Floats
+    """(3,) mm."""
+    reach: float
+    """mm."""
+
+    @classmethod
+    def around(cls, places: Floats) -> Ball:
+        """Return the ball about the middle of the box of points (..., 3)."""
+        points = places.reshape(-1, 3)
+        middle = (points.max(axis=0) + points.min(axis=0)) / 2
+        return cls(middle, float(np.linalg.norm(points - middle, axis=1).max()))
+
+
+def render(fold: Fold, camera: Camera, pixels: int, view: Ball | None = None) -> Floats:
     """Return an image (pixels, pixels, 3) in 0..1 of the folded form on white.
 
-    Raises InvalidInput where the fold has no folded form.
+    view : what must fit into the image; where it is not given, the form itself, as large as it
+    can be. Raises InvalidInput where the fold has no folded form.
     """
     side = pixels * SAMPLES
-    corners = _spread(fold) - _middle(form_of(fold))
-    seen = corners @ camera.axes().T
-    reach = float(np.linalg.norm(corners, axis=2).max())
-    nearness = 1.0 / (camera.distance * reach - seen[:, :, 2])
+    ball = view or Ball.around(form_of(fold).vertices)
+    seen = (_spread(fold) - ball.middle) @ camera.axes().T
+    nearness = 1.0 / (camera.distance * ball.reach - seen[:, :, 2])
     flat = seen[:, :, :2] * nearness[:, :, None]
-    scale = 0.96 * side / np.ptp(flat.reshape(-1, 2), axis=0).max()
-    centre = (flat.reshape(-1, 2).max(axis=0) + flat.reshape(-1, 2).min(axis=0)) / 2
-    screen = (flat - centre) * scale + side / 2
-    colours = _shade(seen, camera.distance * reach)
+    screen = _fitted(flat, side) if view is None else _fixed(flat, camera, side)
+    colours = _shade(seen, camera.distance * ball.reach)
     image = _fill(screen, nearness, colours, _inked_sides(fold), side)
     small: Floats = image.reshape(pixels, SAMPLES, pixels, SAMPLES, 3).mean(axis=(1, 3))
     return small[::-1]
+
+
+def _fitted(flat: Floats, side: int) -> Floats:
+    """Bring what is seen onto the image as large as it can be."""
+    spots = flat.reshape(-1, 2)
+    scale = 0.96 * side / np.ptp(spots, axis=0).max()
+    centre = (spots.max(axis=0) + spots.min(axis=0)) / 2
+    screen: Floats = (flat - centre) * scale + side / 2
+    return screen
+
+
+def _fixed(flat: Floats, camera: Camera, side: int) -> Floats:
+    """Bring what is seen onto the image so that the whole ball would fit."""
+    outline = 1.0 / np.sqrt(camera.distance**2 - 1)
+    screen: Floats = flat * (0.48 * side / outline) + side / 2
+    return screen
 
 
 def form_of(fold: Fold) -> FoldedForm:
@@ -76,11 +107,6 @@ def form_of(fold: Fold) -> FoldedForm:
             "FOLD file with a folded form, or draw the pattern alone."
         )
     return fold.folded
-
-
-def _middle(form: FoldedForm) -> Floats:
-    middle: Floats = (form.vertices.max(axis=0) + form.vertices.min(axis=0)) / 2
-    return middle
 
 
 def _spread(fold: Fold) -> Floats:

@@ -42,7 +42,7 @@ def draw(axes: Axes, plan: Plan, letters: float = 9) -> None:
     """Draw the sheet into axes, with labels, legend and scale bar; ``letters`` in points."""
     sheet = plan.sheet
     span = max(sheet.width, sheet.height)
-    _draw_blank(axes, sheet, plan.flip, span)
+    _draw_blank(axes, sheet, plan.flip if len(plan.passes) > 1 else None, span)
     for (role, face), (name, colour, width) in LOOKS.items():
         lines = strokes(plan, role, face)
         if lines:
@@ -78,9 +78,11 @@ def axis_line(sheet: Sheet, flip: Flip, beyond: float) -> tuple[list[float], lis
     return [-beyond, sheet.width + beyond], [flip.axis, flip.axis]
 
 
-def _draw_blank(axes: Axes, sheet: Sheet, flip: Flip, span: float) -> None:
+def _draw_blank(axes: Axes, sheet: Sheet, flip: Flip | None, span: float) -> None:
     w, h = sheet.width, sheet.height
     axes.fill([0, w, w, 0], [0, 0, h, h], facecolor="#fafafa", edgecolor="#606060", linewidth=0.8)
+    if flip is None:
+        return
     across, along = axis_line(sheet, flip, 0.02 * span)
     axes.plot(across, along, color="#808080", linewidth=0.7, linestyle="-.")
     axes.text(across[1], along[1], f" turned over {flip.kind}", fontsize=8, color="#606060")

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Fold
+from foldmill.check import check
 from foldmill.exchange import fold as fold_file
+from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -89,7 +91,8 @@ def make(
         passes=passes,
         figures=measure(passes, machine, sheet, turn),
     )
-    findings = marks.findings + rules.judge(pattern, spots, by_face, stops, draft)
+    folds = tuple(f for f in check(fold).findings if f.severity is Severity.ERROR)
+    findings = folds + marks.findings + rules.judge(pattern, spots, by_face, stops, draft)
     return draft.model_copy(update={"findings": findings})
 
 

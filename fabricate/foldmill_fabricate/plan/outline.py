@@ -74,8 +74,8 @@ def _tie_places(rim: Floats, cut: Cut) -> list[float]:
     count = max(LEAST_TIES, round(float(reached[-1]) / cut.tie_pitch))
     if not runs:
         raise CannotPlan(
-            f"No edge of the outline is long enough for a tie ({2 * room:g} mm). Cut this part "
-            f"without ties by hand, or enlarge it."
+            f"No edge of the outline is long enough for a tie ({2 * room:g} mm). Enlarge the "
+            f"part, or choose a material whose ties are smaller."
         )
     pitch = float(reached[-1]) / count
     wanted = [(k + 0.5) * pitch for k in range(count)]
@@ -84,6 +84,8 @@ def _tie_places(rim: Floats, cut: Cut) -> list[float]:
         near = min((min(max(want, low), high) for low, high in runs), key=lambda s: abs(s - want))
         if not places or near - places[-1] > 2 * cut.tie_corner:
             places.append(near)
+    if len(places) > 1 and places[0] + float(reached[-1]) - places[-1] <= 2 * cut.tie_corner:
+        places.pop()  # the last one has come round to the first
     if len(places) < LEAST_TIES:
         raise CannotPlan(
             f"The outline has room for {len(places)} ties, and a part needs {LEAST_TIES}. Use a "

@@ -22,7 +22,7 @@ Flags = NDArray[np.bool_]
 
 GRID = 1.0
 """mm between the places tried."""
-DIFFERENCE = 10.0
+DIFFERENCE = 20.0
 """mm by which the two pairs differ, so that a wrong turn is plain to the eye."""
 WITNESS = np.array([[[0, 0], [0, 12]], [[0, 12], [8, 12]], [[0, 7], [6, 7]]], float)
 """(3, 2, 2) the strokes of a letter F, mm: it is not its own mirror image."""

@@ -33,6 +33,8 @@ def open_port(url: str, machine: Machine) -> Any:
     url : ``/dev/ttyUSB0``, ``COM3``, ``socket://host:port``, ``rfc2217://host:port``,
     ``sim://machine`` …. Raises PortUnavailable.
     """
+    if not url.strip():
+        raise PortUnavailable("Name a port, such as /dev/ttyUSB0, COM3 or socket://host:port.")
     try:
         return serial.serial_for_url(
             url,
@@ -46,6 +48,8 @@ def open_port(url: str, machine: Machine) -> Any:
         raise PortUnavailable(_sentence(url, error)) from None
     except ValueError as error:
         raise PortUnavailable(_unknown(url, error)) from None
+    except TypeError:  # pyserial's way of missing a part of an address
+        raise PortUnavailable(f"{url} is no whole address: write socket://host:port.") from None
 
 
 def clock_of(port: Any) -> Clock:

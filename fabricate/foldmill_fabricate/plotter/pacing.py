@@ -183,8 +183,9 @@ class Asked:
             self._progress = clock.now()  # a person's doing; waiting costs nothing
             return
         raise NoAnswer(
-            f"The plotter answers, but has stood still since instruction {self._done} of "
-            f"{len(self._ledger.parts)}; its own display may say why."
+            f"The plotter answers, but has not got beyond instruction {self._done} of "
+            f"{len(self._ledger.parts)} in the time that takes: it stands still, or is far slower "
+            f"than its profile says. Its own display may say why."
         )
 
     def _nap(self, number: int) -> None:

@@ -17,6 +17,10 @@ _PROCESS = {
 _FIRST = (Role.HOLE, Role.WITNESS)
 _LAST = (Role.CUT_INNER, Role.CUT_OUTER)
 _ORDER = list(Role)
+_SUPERFLUOUS = {
+    Gate.FLIP: "The sheet is turned over here, and the face stays the same.",
+    Gate.LOAD: "A new sheet is loaded here, with the work on the last one half done.",
+}
 
 
 def prove_process(plan: Plan) -> list[Finding]:
@@ -28,6 +32,7 @@ def prove_process(plan: Plan) -> list[Finding]:
         text = f"The set-ups are numbered {numbers}, not 1, 2, 3 … in order of work."
         found.append(_error("set-ups", "plan", text))
     found += _gate_findings(plan, setups)
+    found += _depth_findings(plan)
     for _, setup in setups:
         found += _value_findings(plan, setup)
     return found
@@ -88,9 +93,25 @@ def _gate_findings(plan: Plan, setups: list[tuple[Face, SetUp]]) -> list[Finding
             for gate in needed
             if gate not in setup.gates
         ]
-        if Gate.FLIP in setup.gates and Gate.FLIP not in needed:
-            text = "The sheet is turned over here, and the face stays the same."
-            found.append(_error("wrong-gate", f"set-up {setup.number}", text))
+        for gate, text in _SUPERFLUOUS.items():
+            if gate in setup.gates and gate not in needed:
+                found.append(_error("wrong-gate", f"set-up {setup.number}", text))
+    return found
+
+
+def _depth_findings(plan: Plan) -> list[Finding]:
+    """Check that a score leaves its web, and that a cut goes through."""
+    material = plan.material
+    most = material.thickness - material.score.web_min
+    found = []
+    if material.score.exposure > most:
+        text = f"The blade stands out {material.score.exposure:g} mm for scores in "
+        text += f"{material.thickness:g} mm of material; more than {most:g} mm cuts its web."
+        found.append(_error("score-depth", material.slug, text))
+    if material.cut.exposure < material.thickness:
+        text = f"The blade stands out {material.cut.exposure:g} mm for cuts; the material is "
+        text += f"{material.thickness:g} mm thick."
+        found.append(_error("cut-depth", material.slug, text))
     return found
 
 

@@ -28,7 +28,23 @@ def prove_waste(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
         found += _one_hole(asked.plan, hole, f"hole {k} at {at((hole.x, hole.y))}", part)
     found += _register(asked.plan)
     witness = [stroke for stroke in strokes if stroke.role is Role.WITNESS]
+    found += _absent(asked.plan, witness)
     return found + _witness_findings(witness, part)
+
+
+def _absent(plan: Plan, witness: Sequence[Planned]) -> list[Finding]:
+    """Check that a sheet that is turned over has holes and a mark, or the plan says why not."""
+    if len(plan.passes) < 2:
+        return []
+    said = {finding.code for finding in plan.findings}
+    found = []
+    if not plan.holes and "no-registration-holes" not in said:
+        text = "The sheet is turned over, and has no registration holes."
+        found.append(_error("holes-missing", "waste", text))
+    if not witness and not said & {"no-witness-mark", "no-registration-holes"}:
+        text = "The sheet is turned over, and no mark shows whether it was."
+        found.append(_error("witness-missing", "waste", text))
+    return found
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from foldmill import Fold, FoldmillError
+from foldmill import Fold, FoldmillError, Symmetry
 from foldmill.axisymmetric import rosette, strip
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.check import penetration
 from foldmill.check.intersection import penetrations
+from foldmill.check.symmetry import half_wedge_decides
 
 NO_EDGES = np.zeros((0, 2), np.intp)
 PAIR = np.array([[0, 1, 2], [3, 4, 5]])
@@ -137,3 +140,58 @@ def test_where_radii_change_their_sign_all_facets_are_looked_at() -> None:
         (finding,) = penetration(fold).findings
         assert finding.code == "penetration"
     assert free_wedges > 5
+
+
+def crossing() -> Fold:
+    """Return a form with 48 penetrations that is symmetric and one-sided."""
+    points = {i: LinePoint(a=a) for i, a in enumerate((40, 90, 140, 141, 200, 201), start=1)}
+    half = rosette.HalfWedge.of(strip.solve(6, 30, points))
+    return rosette.fold(rosette.assemble(half), wedge_decides=True)
+
+
+CLAIMS = {
+    "of no half wedge": Symmetry(1, np.array([], np.intp), True),
+    "of too few faces": Symmetry(6, np.array([0, 1, 2]), True),
+    "of another order": Symmetry(3, np.arange(10), True),
+    "of one wedge whole": Symmetry(1, np.arange(30), True),
+    "of the same face over and over": Symmetry(6, np.zeros(5, np.intp), True),
+    "of faces from two wedges": Symmetry(6, np.array([0, 1, 2, 3, 14]), True),
+    "of faces that are not there": Symmetry(6, np.array([0, 1, 2, 3, 600]), True),
+    "of one side": Symmetry(6, np.arange(5), True),
+    "of no order": Symmetry(0, np.arange(5), True),
+}
+
+
+@pytest.mark.parametrize("claim", CLAIMS)
+def test_a_symmetry_is_not_believed(claim: str) -> None:
+    fold = crossing()
+    lying = replace(fold, symmetry=CLAIMS[claim])
+    assert penetration(fold).figures["penetrations"] == 48
+    assert penetration(lying).figures["penetrations"] == 48
+
+
+@pytest.mark.parametrize("change", ["shifted", "turned", "one vertex moved", "one-sided by name"])
+def test_the_half_wedge_decides_only_for_what_is_symmetric_about_the_axis(change: str) -> None:
+    for fold in forms(seed=8, count=20):
+        assert fold.folded is not None
+        assert fold.symmetry is not None
+        solid, symmetry, faces = fold.folded.vertices.copy(), fold.symmetry, fold.pattern.faces
+        assert half_wedge_decides(symmetry, solid, faces) is symmetry.one_sided
+        if change == "shifted":
+            solid += [1, 0, 0]
+        elif change == "turned":
+            solid = solid @ np.array([[0.8, 0.6, 0], [-0.6, 0.8, 0], [0, 0, 1]])
+        elif change == "one vertex moved":
+            solid[-1] += [0, 0, 1e-4]
+        elif symmetry.one_sided:
+            continue
+        assert not half_wedge_decides(replace(symmetry, one_sided=True), solid, faces)
+
+
+def test_a_form_rounded_to_six_decimals_keeps_its_symmetry() -> None:
+    for fold in forms(seed=9, count=20):
+        assert fold.folded is not None
+        assert fold.symmetry is not None
+        rounded = np.round(fold.folded.vertices, 6)
+        kept = half_wedge_decides(fold.symmetry, rounded, fold.pattern.faces)
+        assert kept is fold.symmetry.one_sided

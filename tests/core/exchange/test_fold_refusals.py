@@ -76,6 +76,19 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
         {"file_frames": [{"frame_parent": 1, "frame_inherit": True}]},
         "Frame 1 inherits from frame 1",
     ),
+    "a symmetry of broken order": (
+        {"foldmill:symmetry": {"order": 2.7, "wedge": [0], "one_sided": True}},
+        "foldmill:symmetry must have a whole order",
+    ),
+    "a symmetry with half a face": (
+        {"foldmill:symmetry": {"order": 2, "wedge": [0.5], "one_sided": True}},
+        "foldmill:symmetry must have a whole order",
+    ),
+    "a symmetry that is perhaps one-sided": (
+        {"foldmill:symmetry": {"order": 2, "wedge": [0], "one_sided": "perhaps"}},
+        "foldmill:symmetry must have a whole order",
+    ),
+    "a symmetry that is a number": ({"foldmill:symmetry": 6}, "foldmill:symmetry must have"),
     "a symmetry without order": ({"foldmill:symmetry": {"wedge": [0]}}, "foldmill:symmetry"),
     "a wedge of no face": (
         {"foldmill:symmetry": {"order": 3, "wedge": [7], "one_sided": True}},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from foldmill_fabricate.cli import main
+from foldmill_fabricate.cli.running import stopping_on_signals
 
 
 class Told:
@@ -70,9 +72,28 @@ def test_one_value_by_its_dotted_name_changes_the_form(foldmill: Run) -> None:
 
 
 def test_parameters_come_from_a_file_too(foldmill: Run) -> None:
-    Path("p.toml").write_text("n = 6\n[points.2]\na = 70.0\n")
-    assert foldmill("design", "rotational", "--params", "p.toml", "-o", "a.fold").code == 0
-    assert json.loads(Path("a.fold").read_text())["foldmill:design"]["params"]["n"] == 6
+    Path("p.toml").write_text("n = 6\n[points]\n1 = { a = 40 }\n2 = { a = 50 }\n3 = { a = 70 }\n")
+    told = foldmill("design", "rotational", "--params", "p.toml", "--json")
+    assert json.loads(told.out)["vertices"] == 1 + 6 * 3
+
+
+def test_a_point_on_its_line_becomes_a_free_one_by_its_r_and_z(foldmill: Run) -> None:
+    free = ("--points.4.r", "96", "--points.4.z", "-80", "--tucks", "[]")
+    assert foldmill("design", "tuck", "--preset", "stool-n8", *free).code == 0
+    told = foldmill("design", "tuck", "--preset", "stool-n8", "--points.4.a", "200", "--tucks=[]")
+    assert "points.4.r" not in told.err
+
+
+def test_a_form_that_penetrates_is_written_only_by_force_and_then_marked(foldmill: Run) -> None:
+    points = '{"1":{"a":40},"2":{"a":90},"3":{"a":140},"4":{"a":141},"5":{"a":200},"6":{"a":201}}'
+    bad = ("design", "rotational", "--n", "6", "--phi", "30", "--points", points, "-o", "bad.fold")
+    told = foldmill(*bad)
+    assert told.code == 2
+    assert "passes through itself" in told.out
+    assert not Path("bad.fold").exists()
+    assert foldmill(*bad, "--force").code == 0
+    assert json.loads(Path("bad.fold").read_text())["foldmill:errors"] == ["penetration"]
+    assert foldmill("plan", "bad.fold", "-o", "job", "--unassigned", "skip").code == 1
 
 
 def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
@@ -103,6 +124,13 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["verify", "nowhere"], "nowhere"),
         (["send", "nowhere", "--port", "sim://generic-hpgl-600"], "nowhere"),
         (["simulate"], "--pty LINK or --tcp PORT"),
+        (["simulate", "--tcp", "70000"], "Input should be less than or equal to 65535"),
+        (["plan", "a.fold", "-o", "bad.fold"], "bad.fold: file exists."),
+        (["design", "rotational", "-o", "bad.fold/x.fold"], "bad.fold"),
+        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .gif or .webp"),
+        (["motion", "a.fold", "--motion", "dance", "-o", "m.gif"], "There is no motion 'dance'"),
+        (["motion", "a.fold", "--steps", "0", "-o", "m.gif"], "--steps must be from 1"),
+        (["motion", "tuck", "-o", "m.gif"], "no motion that is known"),
         (["show", "a.fold", "-o", "a.gif"], "a picture is written as .png"),
     ],
 )
@@ -117,6 +145,15 @@ def test_wrong_input_gets_one_sentence_and_leaves_nothing_behind(
     assert sentence in told.err
     assert "Traceback" not in told.err
     assert sorted(Path().iterdir()) == before
+
+
+def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
+    assert foldmill("motion", "rotational", "--phi", "70", "--steps", "4", "-o", "m.fold").code == 0
+    told = json.loads(Path("m.fold").read_text())
+    assert told["file_classes"] == ["animation"]
+    assert len(told["file_frames"]) == 1 + 5
+    assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.gif").code == 0
+    assert Path("m.gif").read_bytes().startswith(b"GIF89a")
 
 
 def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
@@ -141,6 +178,54 @@ def test_a_plan_with_an_error_of_its_own_is_written_and_told_but_not_sent(foldmi
     assert "groove ends are wanted" in told.err
 
 
+def test_a_sheet_with_valleys_only_is_loaded_with_its_reverse_up(foldmill: Run) -> None:
+    from foldmill import CreasePattern, Fold
+    from foldmill.exchange import write
+
+    corners = [[0, 0], [90, 0], [180, 0], [180, 90], [90, 90], [0, 90]]
+    rim = [[k, (k + 1) % 6] for k in range(6)]
+    fold = Fold(CreasePattern.from_lines(corners, [*rim, [1, 4]], "BBBBBBV"))
+    Path("v.fold").write_text(write(fold))
+    assert foldmill("plan", "v.fold", "-o", "job").code == 0
+    url = "sim://valleys?machine=generic-hpgl-600"
+    assert foldmill("send", "job", "--port", url, "--yes", "--draw", "cut").code == 0
+    assert "set-up-1" not in Path("cut/front.svg").read_text()
+    assert "set-up-1" in Path("cut/reverse.svg").read_text()
+
+
+def test_what_send_says_as_json_is_json(foldmill: Run) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    url = "sim://json?machine=generic-hpgl-600"
+    told = foldmill("send", "job", "--port", url, "--yes", "--draw", "cut", "--json")
+    assert len(json.loads(told.out)) == 4
+
+
+@pytest.mark.parametrize("port", ["/dev/nothing-here", "foo://x", ""])
+def test_a_port_that_is_not_there_is_told_before_a_sheet_is_loaded(
+    foldmill: Run, port: str
+) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    told = foldmill("send", "job", "--port", port)
+    assert told.code == 2
+    assert "Load" not in told.out + told.err
+
+
+def test_an_unconfirmed_program_ends_the_job(foldmill: Run) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?silent_after=6500", "--yes")
+    assert told.code != 0
+    assert "2-front-score" not in told.out
+
+
+def test_a_signal_to_end_stops_the_machine_first() -> None:
+    with pytest.raises(KeyboardInterrupt), stopping_on_signals():
+        os.kill(os.getpid(), signal.SIGTERM)
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
 def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
     foldmill("plan", "a.fold", "-o", "job")
@@ -153,12 +238,16 @@ def test_a_job_fitted_to_marks_is_sent_and_a_wrong_reading_is_not(foldmill: Run)
     foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold")
     foldmill("plan", "stool.fold", "-o", "job")
     send = ("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--pass", "reverse")
-    good = foldmill(*send, "--marks", "60.9,539.2;539.9,539.2;70.9,70.2;529.9,70.2")
+    good = foldmill(*send, "--marks", "60.9,539.2;539.9,539.2;80.9,80.2;519.9,80.2")
     assert "shift +0.40, -0.30 mm" in good.out
     assert good.out.count("executed") == 2
     bad = foldmill(*send, "--marks", "60.5,539.5;536.0,539.5")
     assert bad.code == 2
     assert "scale" in bad.err
+    wrong_way = foldmill(*send, "--marks", "60.5,60.5;529.5,529.5")
+    assert wrong_way.code == 2
+    assert "Is the sheet turned left-right" in wrong_way.err
+    assert "write x1,y1" in foldmill(*send, "--marks", "nan,539.5;539.5,539.5").err
 
 
 def test_help_is_quick_because_nothing_heavy_is_imported() -> None:

@@ -119,7 +119,7 @@ def test_a_machine_gone_silent_ends_with_a_sentence_by_a_deadline(
 def test_a_machine_that_stands_still_is_given_up(machine: Make, plugged: Plug) -> None:
     simulator = Simulator(machine(), faults=Faults(slower=1e4))
     with open_port(plugged(simulator), machine()) as port:
-        with pytest.raises(NoAnswer, match=r"stood still since instruction \d+ of"):
+        with pytest.raises(NoAnswer, match=r"not got beyond instruction \d+ of"):
             send(LONG, port, machine())
         assert port.clock.now() < 60
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fabricate.verify.square_job import Job, emit, recorded
 
-from foldmill_fabricate.passes import Face, Operation, Plan, Role, SetUp, Stroke
+from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp, Stroke
 
 
 @dataclass(frozen=True)
@@ -144,6 +144,63 @@ def nobody_is_told_to_turn_the_sheet(plan: Plan) -> Plan:
     return plan.model_copy(update={"passes": (front, changed)})
 
 
+def another_sheet_is_loaded_half_way(plan: Plan) -> Plan:
+    front, reverse = plan.passes
+    last = reverse.setups[-1]
+    gates = (Gate.LOAD, *last.gates)
+    setups = (*reverse.setups[:-1], last.model_copy(update={"gates": gates}))
+    changed = reverse.model_copy(update={"setups": setups})
+    return plan.model_copy(update={"passes": (front, changed)})
+
+
+def scores_cut_through(plan: Plan) -> Plan:
+    """Set the blade out by 0.7 mm, in the material and in every set-up that scores."""
+    score = plan.material.score.model_copy(update={"exposure": 0.7})
+    passes = tuple(
+        side.model_copy(
+            update={
+                "setups": tuple(
+                    setup.model_copy(update={"exposure": 0.7})
+                    if setup.process == "score"
+                    else setup
+                    for setup in side.setups
+                )
+            }
+        )
+        for side in plan.passes
+    )
+    material = plan.material.model_copy(update={"score": score})
+    return plan.model_copy(update={"material": material, "passes": passes})
+
+
+def the_witness_mark_is_left_out(plan: Plan) -> Plan:
+    return _without(plan, Role.WITNESS)
+
+
+def the_holes_are_left_out(plan: Plan) -> Plan:
+    return _without(plan, Role.HOLE).model_copy(update={"holes": ()})
+
+
+def _without(plan: Plan, role: Role) -> Plan:
+    """Take out a role with all that it needed, and number the set-ups anew."""
+    number, passes = 0, []
+    for side in plan.passes:
+        setups = []
+        for setup in side.setups:
+            left = tuple(op for op in setup.operations if op.role is not role)
+            if left:
+                number += 1
+                gates = setup.gates if number > 1 else (Gate.LOAD, *setup.gates)
+                changes = {
+                    "operations": left,
+                    "number": number,
+                    "gates": tuple(dict.fromkeys(gates)),
+                }
+                setups.append(setup.model_copy(update=changes))
+        passes.append(side.model_copy(update={"setups": tuple(setups)}))
+    return plan.model_copy(update={"passes": tuple(passes)})
+
+
 PLANS: dict[Callable[[Plan], Plan], str] = {
     mountains_and_valleys_are_swapped: "swapped-faces",
     a_crease_is_forgotten: "missing-score",
@@ -162,6 +219,10 @@ PLANS: dict[Callable[[Plan], Plan], str] = {
     the_part_lies_elsewhere: "missing-score",
     the_sheet_is_turned_about_its_edge: "flip-axis",
     nobody_is_told_to_turn_the_sheet: "missing-gate",
+    another_sheet_is_loaded_half_way: "wrong-gate",
+    scores_cut_through: "score-depth",
+    the_witness_mark_is_left_out: "witness-missing",
+    the_holes_are_left_out: "holes-missing",
 }
 """What is done to the plan, its programs written from it afterwards, and what must be found."""
 

@@ -11,7 +11,10 @@ from math import inf
 from typing import TypeVar
 from urllib.parse import parse_qsl, urlsplit
 
+from pydantic import ValidationError
+
 from foldmill import installed
+from foldmill.design import explain
 from foldmill.errors import InvalidInput
 from foldmill_fabricate.hooks import MACHINES
 from foldmill_fabricate.machines import Machine
@@ -79,10 +82,9 @@ def adjusted(machine: Machine, serial: dict[str, str]) -> Machine:
     """Return the machine with other serial settings; raises InvalidInput for impossible ones."""
     try:
         settings = type(machine.serial).model_validate(machine.serial.model_dump() | serial)
-    except ValueError as error:
+    except ValidationError as error:
         given = ", ".join(f"{key}={value}" for key, value in serial.items())
-        reason = " ".join(str(error).splitlines()[2:3]).strip()
-        raise InvalidInput(f"No plotter is like this: {given}. {reason}.") from None
+        raise InvalidInput(f"No plotter is like this: {given}. {explain(error)}") from None
     return machine.model_copy(update={"serial": settings})
 
 

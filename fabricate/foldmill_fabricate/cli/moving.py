@@ -1,0 +1,86 @@
+"""How a form moves: the command motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from foldmill import Fold, FoldmillError, UnknownName
+from foldmill.motion import Motion
+from foldmill_fabricate.cli.designing import load
+from foldmill_fabricate.cli.output import AsJson, say
+
+MOST_STEPS = 1000
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add these commands to the application."""
+    settings = {"allow_extra_args": True, "ignore_unknown_options": True}
+    app.command(context_settings=settings)(motion)
+
+
+def motion(
+    context: typer.Context,
+    source: Annotated[str, typer.Argument(help="A family, or a FILE.fold that a family made.")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="FILE.fold (frames), .gif or .webp; by suffix.")
+    ],
+    preset: Annotated[str | None, typer.Option(help="Start from a preset of the family.")] = None,
+    params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
+    name: Annotated[
+        str | None, typer.Option("--motion", help="Which motion; default: the first.")
+    ] = None,
+    steps: Annotated[int, typer.Option(help="Steps from start to end.")] = 24,
+    as_json: AsJson = False,
+) -> None:
+    """Write how a form moves: foldmill motion FAMILY [--PARAM V]… --steps N -o FILE."""
+    from foldmill_fabricate.files import write_whole
+
+    if not 1 <= steps <= MOST_STEPS:
+        raise FoldmillError(f"--steps must be from 1 to {MOST_STEPS}, not {steps}.")
+    fold = _fold(source, preset, params, context.args)
+    moving = _motion(fold, name)
+    write_whole(output, _bytes(fold, moving, steps, output))
+    data = {"motion": moving.name, "reach": moving.reach, "reason": moving.reason}
+    stops = f" It stops at t = {moving.reach:g}: {moving.reason}" if moving.reason else ""
+    say(as_json, data, f"{output}: {moving.title}, {steps} steps.{stops}")
+
+
+def _fold(source: str, preset: str | None, params: Path | None, options: list[str]) -> Fold:
+    """Return the fold with its motions, made anew where it comes from a file."""
+    from foldmill import installed
+    from foldmill_fabricate.cli.parameters import gather
+
+    if not source.endswith(".fold"):
+        offered = installed().design(source)
+        return offered.run(gather(offered, preset, params, options))
+    if preset or params or options:
+        raise FoldmillError("A FILE.fold has its parameters in it; name a family to change them.")
+    made = load(Path(source)).meta.get("design")
+    if not made:
+        raise FoldmillError(f"{source} was not made by a family, so how it moves is not known.")
+    return installed().design(made["slug"]).run(made["params"])
+
+
+def _motion(fold: Fold, name: str | None) -> Motion:
+    if not fold.motions:
+        raise FoldmillError("This form has no motion that is known.")
+    chosen = name or next(iter(fold.motions))
+    if chosen not in fold.motions:
+        raise UnknownName.of("motion", chosen, fold.motions)
+    return fold.motions[chosen]
+
+
+def _bytes(fold: Fold, moving: Motion, steps: int, file: Path) -> bytes:
+    from foldmill.exchange import fold as fold_file
+    from foldmill.exchange.motion import with_frames
+    from foldmill_fabricate.pictures import motion_picture
+
+    suffix = file.suffix.lower()
+    if suffix == ".fold":
+        return fold_file.write(with_frames(fold, moving, steps)).encode()
+    if suffix in {".gif", ".webp"}:
+        return motion_picture(fold, moving, steps, suffix)
+    raise FoldmillError(f"{file}: a motion is written as .fold .gif or .webp.")

@@ -1,0 +1,51 @@
+"""A motion as an animated picture, seen from one place, as large throughout."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from io import BytesIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import Fold, FoldedForm
+from foldmill.motion import Motion
+from foldmill_fabricate.pictures.folded import ABOVE
+from foldmill_fabricate.pictures.render import Ball, render
+
+Floats = NDArray[np.float64]
+
+PIXELS = 360
+FRAME_MS = 60
+REST_MS = 900
+"""How long the first and the last frame stay."""
+
+
+def motion_picture(fold: Fold, motion: Motion, steps: int, suffix: str = ".gif") -> bytes:
+    """Return the motion there and back as an animated GIF or WebP, by the suffix."""
+    from PIL import Image
+
+    frames = motion.frames(steps)
+    view = Ball.around(np.array(frames))
+    images = [
+        Image.fromarray(np.uint8(np.rint(255 * _image(fold, vertices, view))))
+        for vertices in frames
+    ]
+    there_and_back = [*images, *images[-2:0:-1]]
+    times = [FRAME_MS] * len(there_and_back)
+    times[0] = times[len(images) - 1] = REST_MS
+    out = BytesIO()
+    there_and_back[0].save(
+        out,
+        format=suffix.lstrip(".").upper(),
+        save_all=True,
+        append_images=there_and_back[1:],
+        duration=times,
+        loop=0,
+    )
+    return out.getvalue()
+
+
+def _image(fold: Fold, vertices: Floats, view: Ball) -> Floats:
+    shown = replace(fold, folded=FoldedForm(vertices))
+    return render(shown, ABOVE, PIXELS, view)
