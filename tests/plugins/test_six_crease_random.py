@@ -53,12 +53,15 @@ def test_a_random_tube_is_one_sheet_that_does_not_stretch(block: int) -> None:
 
 
 def test_half_a_wedge_decides_for_the_tube_where_no_radius_changes_its_sign() -> None:
-    free, blocked, crossing = 0, 0, 0
-    for params in tubes(range(200, 260)):
+    free, blocked, crossing, whole = 0, 0, 0, 0
+    for params in tubes(range(200, 330)):
         fold = DESIGN.run(params)
-        assert fold.symmetry is not None
         assert fold.folded is not None
         space, pattern = fold.folded.vertices, fold.pattern
+        if fold.symmetry is None:  # the tabs of the tube before, which touch and do not penetrate
+            assert params.tab
+            assert bool(len(penetrations(space, pattern.edges, pattern.faces))) == bool(whole)
+            continue
         whole = len(penetrations(space, pattern.edges, pattern.faces))
         wedge = len(penetrations(space, pattern.edges, pattern.faces[fold.symmetry.wedge]))
         if fold.symmetry.one_sided:

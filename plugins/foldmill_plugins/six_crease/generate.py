@@ -26,10 +26,12 @@ def generate(params: SixCreaseParams) -> Fold:
     sheet = glued.sheet if glued else Sheet.of(whole)
     pattern, form = sheet.finish()
     motion = along_arc(params, whole, glued)
+    # Tabs are on one seam only, so that a form with tabs is not the same when it is turned.
+    symmetry = Symmetry(params.n, np.arange(len(half.faces)), half.one_sided)
     return Fold(
         pattern,
         form,
-        Symmetry(params.n, np.arange(len(half.faces)), half.one_sided),
+        None if glued else symmetry,
         {motion.name: motion},
         handles(params, places, sheet.is_inside_out),
         _facts(params, motion, glued),
