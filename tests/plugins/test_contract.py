@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from foldmill.testing import Check, design_checks
-from foldmill_plugins import rotational, tuck
+from foldmill_plugins import rotational, six_crease, tuck
 
 
 @pytest.mark.parametrize("check", design_checks(rotational.DESIGN), ids=str)
@@ -15,4 +15,9 @@ def test_rotational(check: Check) -> None:
 
 @pytest.mark.parametrize("check", design_checks(tuck.DESIGN), ids=str)
 def test_tuck(check: Check) -> None:
+    check()
+
+
+@pytest.mark.parametrize("check", design_checks(six_crease.DESIGN), ids=str)
+def test_six_crease(check: Check) -> None:
     check()

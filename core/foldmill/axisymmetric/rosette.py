@@ -7,9 +7,11 @@ appear twice per wedge, and may coincide in space where a tuck is folded away be
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,16 +129,20 @@ class Rosette:
 
     def moved(self, half: HalfWedge) -> Rosette:
         """Return the same topology over other positions."""
-        return Rosette(half, self.edges, self.faces, self.origin, self.turn, self.mirrored)
+        return replace(self, half=half)
 
     def wedge_faces(self, faces: Indices) -> Indices:
         """Return the faces of the first wedge, plain and mirrored, by their half-wedge numbers."""
         return np.concatenate([faces, faces + len(self.half.faces)])
 
     def _spread(self, spots: Floats) -> Floats:
+        return self.turned(spots, np.pi / self.half.order)
+
+    def turned(self, spots: Floats, theta: float) -> Floats:
+        """Return points (m, k) of the half wedge mirrored, and turned by 2·theta (rad) a wedge."""
         out = spots[self.origin]
         out[self.mirrored, 1] *= -1
-        angle = 2 * np.pi * self.turn / self.half.order
+        angle = 2 * theta * self.turn
         cos, sin = np.cos(angle), np.sin(angle)
         x, y = out[:, 0].copy(), out[:, 1].copy()
         out[:, 0], out[:, 1] = cos * x - sin * y, sin * x + cos * y
@@ -145,19 +151,31 @@ class Rosette:
 
 def assemble(half: HalfWedge) -> Rosette:
     """Weld N turned and mirrored copies by what they are, not by where they lie."""
+    return weld(Rosette, half, _key)
+
+
+AnyRosette = TypeVar("AnyRosette", bound=Rosette)
+Key = Callable[[int, Seat, int, bool, int], VertexKey]
+
+
+def weld(kind: type[AnyRosette], half: HalfWedge, key_of: Key) -> AnyRosette:
+    """Weld N copies of a half wedge and its mirror image wherever their keys are one.
+
+    key_of : (point, seat, turn, whether mirrored, N) → (point, turn, whether mirrored)
+    """
     index: dict[VertexKey, int] = {}
     faces: list[tuple[int, ...]] = []
     for turn in range(half.order):
         for mirrored in (False, True):
             for face in half.faces.tolist():
-                keys = [_key(p, half.seats[p], turn, mirrored, half.order) for p in face]
+                keys = [key_of(p, half.seats[p], turn, mirrored, half.order) for p in face]
                 corners = [index.setdefault(key, len(index)) for key in keys]
                 faces.append(tuple(corners[::-1] if mirrored else corners))
     every_face = np.array(faces, np.intp)
     sides, _ = planar.face_sides(every_face)
     origin, turns, mirrors = (np.array(column) for column in zip(*index, strict=True))
     edges = np.unique(np.sort(sides, axis=1), axis=0)
-    return Rosette(half, edges, every_face, origin, turns, mirrors.astype(bool))
+    return kind(half, edges, every_face, origin, turns, mirrors.astype(bool))
 
 
 def fold(rose: Rosette, closed: EdgeSigns | None = None, *, wedge_decides: bool) -> Fold:

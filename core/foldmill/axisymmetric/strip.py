@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foldmill.axisymmetric.points import FreePoint, LinePoint
 from foldmill.errors import ImpossibleGeometry, InvalidParameters
@@ -134,45 +134,102 @@ def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: floa
     base, across = flat[i - 2], flat[i - 1]
     d = float(np.hypot(*(flat[i] - base)))
     c = float((across - base) @ (flat[i] - base)) / d
-    h = abs(_turn(base, flat[i], across)) / d
-    size = float(np.abs(flat).max())
-    (r2, z2), (r1, z1) = meridian[i - 2], meridian[i - 1]
-    s = abs(r1) * np.sin(theta)
-    q = np.array([r1 * np.cos(theta) - r2, z1 - z2])
-    D = float(np.hypot(*q))
-    if SNAP_EPSILONS * np.finfo(float).eps * size >= D:
-        return _place_freely(i, point, meridian[i - 2], d)
-    half_chord = _half_chord(i, c, h, s, D, size)
-    normal = np.array([-q[1], q[0]])
-    # √(c² + half²) is D; said like this the step is as long as in the pattern, however small D is.
-    reach = D * float(np.hypot(c, half_chord))
-    spot: Floats = meridian[i - 2] + d * (c * q + point.branch * half_chord * normal) / reach
+    paper = Paper(d, c, abs(_turn(base, flat[i], across)) / d, float(np.abs(flat).max()))
+    remedy = f"Bring point {i - 1} nearer to the axis, or move it outwards in the pattern."
+    side = Side(point.branch, point.gamma)
+    return place(i, paper, side, meridian[i - 2 : i], theta, remedy)
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A triangle (i-2, i-1, i) of the flat pattern, mm."""
+
+    d: float
+    """Length of its side p_{i-2}p_i."""
+    c: float
+    """Distance of the foot of p_{i-1} from p_{i-2} along that side."""
+    h: float
+    """Distance of p_{i-1} from the line of that side."""
+    size: float
+    """The largest coordinate of the pattern, against which rounding is measured."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """Which of its places a point takes."""
+
+    branch: int
+    """b = ±1."""
+    gamma: float | None
+    """Direction of P_{i-2}P_i, deg, where every direction is possible."""
+
+
+def place(i: int, paper: Paper, side: Side, before: Floats, theta: float, remedy: str) -> Floats:
+    """Return P_i as (r, z), mm.
+
+    before : (2, 2) P_{i-2} and P_{i-1}; theta : rad; remedy : what to do where it has no place.
+    Raises ImpossibleGeometry where P_i has no place, InvalidParameters where its γ is missing.
+    """
+    s, q = _apart(before[0], before[1], theta)
+    if _is_one_circle(paper, q):
+        return _place_freely(i, side.gamma, before[0], paper.d)
+    spot = meet(paper, side.branch, before[0], before[1], theta)
+    if not np.isfinite(spot).all():
+        raise ImpossibleGeometry(
+            f"Point {i} has no place: point {i - 1} is {s:.6g} mm from its plane, and only "
+            f"{paper.h:.6g} mm of paper reach there ({s - paper.h:.3g} mm too few). {remedy}"
+        )
     return spot
 
 
-def _place_freely(i: int, point: LinePoint, base: Floats, d: float) -> Floats:
-    if point.gamma is None:
+def meet(paper: Paper, branch: int, base: Floats, across: Floats, theta: ArrayLike) -> Floats:
+    """Return P_i (..., 2) for many forms of one pattern at once; NaN where it has no one place.
+
+    base, across : (..., 2) P_{i-2} and P_{i-1} as (r, z), mm; theta : (...) rad.
+    """
+    s, q = _apart(base, across, theta)
+    D = np.hypot(q[..., 0], q[..., 1])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        half_chord = np.sqrt(_squared_half_chord(paper, s, D))[..., None]
+        normal = np.stack([-q[..., 1], q[..., 0]], axis=-1)
+        # √(c² + half²) is D; so the step is as long as in the pattern, however small D is.
+        reach = D[..., None] * np.hypot(paper.c, half_chord)
+        steps = paper.d * (paper.c * q + branch * half_chord * normal) / reach
+    spot: Floats = base + np.where(_is_one_circle(paper, q)[..., None], np.nan, steps)
+    return spot
+
+
+def _apart(base: Floats, across: Floats, theta: ArrayLike) -> tuple[Floats, Floats]:
+    """Return s, the distance of P_{i-1} from the plane of P_i, and q, from P_{i-2} to its foot."""
+    r, z = across[..., 0], across[..., 1]
+    q = np.stack([r * np.cos(theta) - base[..., 0], z - base[..., 1]], axis=-1)
+    return np.abs(r) * np.sin(theta), q
+
+
+def _is_one_circle(paper: Paper, q: Floats) -> NDArray[np.bool_]:
+    tiny = SNAP_EPSILONS * np.finfo(float).eps * paper.size
+    return np.asarray(np.hypot(q[..., 0], q[..., 1]) <= tiny)
+
+
+def _place_freely(i: int, gamma: float | None, base: Floats, d: float) -> Floats:
+    if gamma is None:
         raise InvalidParameters(
             f"Point {i} can turn freely about point {i - 2} here (their circles are one): "
             f"give it a direction, points.{i}.gamma, in degrees."
         )
-    angle = np.radians(point.gamma)
+    angle = np.radians(gamma)
     spot: Floats = base + d * np.array([np.cos(angle), np.sin(angle)])
     return spot
 
 
-def _half_chord(i: int, c: float, h: float, s: float, D: float, size: float) -> float:
-    squared = (h - s) * (h + s) if h <= abs(c) else (D - abs(c)) * (D + abs(c))
+def _squared_half_chord(paper: Paper, s: Floats, D: Floats) -> Floats:
+    """Return h² − s², snapped to 0 within rounding; negative where the circles do not meet."""
+    c, h = abs(paper.c), paper.h
+    squared = (h - s) * (h + s) if h <= c else (D - c) * (D + c)
     # A difference of squares is only as good as the smaller of its parts.
-    if abs(squared) <= SNAP_EPSILONS * np.finfo(float).eps * size * max(min(abs(c), h), 0.0):
-        return 0.0
-    if squared < 0 and s > h:
-        raise ImpossibleGeometry(
-            f"Point {i} has no place: point {i - 1} is {s:.6g} mm from its plane, and only "
-            f"{h:.6g} mm of paper reach there ({s - h:.3g} mm too few). Bring point {i - 1} nearer "
-            f"to the axis, or move it outwards in the pattern."
-        )
-    return float(np.sqrt(max(squared, 0.0)))
+    noise = SNAP_EPSILONS * np.finfo(float).eps * paper.size * max(min(c, h), 0.0)
+    clear: Floats = np.where((np.abs(squared) <= noise) | ((squared < 0) & (s <= h)), 0.0, squared)
+    return clear
 
 
 def _unfold(i: int, flat: Floats, meridian: Floats, theta: float) -> Floats:

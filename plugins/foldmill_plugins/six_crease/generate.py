@@ -1,0 +1,49 @@
+"""From parameters to a fold: solve the strip, set it side by side, put tabs on its seam."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from foldmill import Fold, Symmetry
+from foldmill.axisymmetric import tabs, tube
+from foldmill.axisymmetric.tabs import Tabs
+from foldmill.axisymmetric.tube import Sheet
+from foldmill.motion import Motion
+from foldmill_plugins.six_crease import freedoms, solve
+from foldmill_plugins.six_crease.along_arc import along_arc
+from foldmill_plugins.six_crease.handles import handles
+from foldmill_plugins.six_crease.params import SixCreaseParams
+
+
+def generate(params: SixCreaseParams) -> Fold:
+    """Return the fold; raises ImpossibleGeometry where a point or a tab has no place."""
+    places = solve.meridian(params)
+    half = tube.half_wedge(params.n, solve.flat(params), places)
+    whole = tube.assemble(half)
+    glued = tabs.add(Sheet.of(whole), params.tab, params.taper) if params.tab else None
+    sheet = glued.sheet if glued else Sheet.of(whole)
+    pattern, form = sheet.finish()
+    motion = along_arc(params, whole, glued)
+    # Tabs are on one seam only, so that a form with tabs is not the same when it is turned.
+    symmetry = Symmetry(params.n, np.arange(len(half.faces)), half.one_sided)
+    return Fold(
+        pattern,
+        form,
+        None if glued else symmetry,
+        {motion.name: motion},
+        handles(params, places, sheet.is_inside_out),
+        _facts(params, motion, glued),
+    )
+
+
+def _facts(params: SixCreaseParams, motion: Motion, glued: Tabs | None) -> dict[str, Any]:
+    return {
+        "freedoms": {
+            "open sheet": freedoms.of_sheet(params.n, len(params.points)),
+            "glued tube": freedoms.of_tube(params.n),
+        },
+        "along-arc": {"folding_rate": 100 * motion.reach, "stops": motion.reason},
+        "tabs": len(glued.hosts) // 2 if glued else 0,
+    }
