@@ -81,7 +81,8 @@ class Fold:
     handles: tuple[Handle, ...] = ()
     """Points that a person can drag."""
     meta: Mapping[str, Any] = field(default_factory=dict)
-    """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys."""
+    """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys;
+    ``read`` where it comes from a file."""
 
     def __post_init__(self) -> None:
         if self.folded is not None and len(self.folded.vertices) != len(self.pattern.vertices):

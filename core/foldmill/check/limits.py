@@ -1,6 +1,6 @@
 """How exact a fold must be: as a solver is, or as a file can be.
 
-A fold that was read from a file (its ``meta`` has ``fold``) carries the decimals somebody wrote; a
+A fold that was read from a file (its ``meta`` says ``read``) carries the decimals somebody wrote; a
 fold that a design has just made carries none but those of its own arithmetic.
 """
 
@@ -40,4 +40,4 @@ READ = Limits(
 
 def limits(fold: Fold) -> Limits:
     """Return the limits that hold for a fold, by where it comes from."""
-    return READ if "fold" in fold.meta else MADE
+    return READ if fold.meta.get("read") else MADE

@@ -1,8 +1,8 @@
 """FOLD 1.2, out and in, in the profile that every known reader accepts.
 
 Always numbers for the fold angles, never the letters J and C, coordinates in mm. The folded form is
-a second frame. Reading keeps in ``Fold.meta["fold"]`` whatever foldmill does not understand, and
-writing gives it back:
+a second frame. Reading marks ``Fold.meta["read"]``, and keeps in ``Fold.meta["fold"]`` whatever
+foldmill does not understand; writing gives it back:
 
 ``frame``, ``folded``
     the other keys of the pattern's frame and of the folded form's; arrays over the elements fit the
@@ -56,7 +56,7 @@ def _read(data: Frame) -> Fold:
     frame |= {key: value for key, value in data.items() if key.startswith("file_")}
     sheet = read_sheet(frame, notes)
     kept: dict[str, Any] = {"frame": sheet.foreign(frame), "corners": sheet.corners, "notes": notes}
-    meta: dict[str, Any] = {"fold": kept}
+    meta: dict[str, Any] = {"fold": kept, "read": True}
     folded = None
     if second is not None:
         solid = frames.resolved(every, second)

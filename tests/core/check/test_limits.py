@@ -51,6 +51,12 @@ def test_what_a_design_makes_is_held_to_what_arithmetic_can_do(name: str) -> Non
     assert not report.findings
 
 
+def test_what_a_design_adds_to_its_file_does_not_make_it_a_file() -> None:
+    fold = GOOD["tuck stool-n8"]
+    noted = replace(fold, meta={**fold.meta, "fold": {"frame": {"acme:note": 1}}})
+    assert check(noted).figures["isometry_limit"] == 1e-12
+
+
 def test_a_tenth_of_a_millimetre_is_wrong_in_a_file_as_well() -> None:
     fold = rounded(GOOD["tuck stool-n8"], 6)
     assert fold.folded is not None
