@@ -36,6 +36,7 @@ def motion(
     as_json: AsJson = False,
 ) -> None:
     """Write how a form moves: foldmill motion FAMILY [--PARAM V]… --steps N -o FILE."""
+    from foldmill.check.motion import scan
     from foldmill_fabricate.files import write_whole
 
     if not 1 <= steps <= MOST_STEPS:
@@ -43,9 +44,21 @@ def motion(
     fold = _fold(source, preset, params, context.args)
     moving = _motion(fold, name)
     write_whole(output, _bytes(fold, moving, steps, output))
-    data = {"motion": moving.name, "reach": moving.reach, "reason": moving.reason}
+    seen = scan(fold, moving, steps)
+    data = {
+        "motion": moving.name,
+        "reach": moving.reach,
+        "reason": moving.reason,
+        "free_until": seen.free_until,
+        "penetrating_faces": seen.faces,
+    }
     stops = f" It stops at t = {moving.reach:g}: {moving.reason}" if moving.reason else ""
-    say(as_json, data, f"{output}: {moving.title}, {steps} steps.{stops}")
+    free = (
+        f" No facet passes through another at the {seen.looked_at} places looked at."
+        if seen.is_free
+        else f" Facets {seen.faces} pass through each other from t = {seen.free_until:.4f} on."
+    )
+    say(as_json, data, f"{output}: {moving.title}, {steps} steps.{stops}{free}")
 
 
 def _fold(source: str, preset: str | None, params: Path | None, options: list[str]) -> Fold:
