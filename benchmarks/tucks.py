@@ -1,0 +1,127 @@
+"""How many random edits of a stool the automatic placement of tucks solves.
+
+    python benchmarks/tucks.py [SINGLE] [DOUBLE]
+
+SINGLE (default 250) edits move P_4 of the eight-footed stool, DOUBLE (default 100) build a form with
+two points off one line, P_5 and P_7; only edits with a valid pattern count. Columns:
+
+solved      a place of the flap where it passes through nothing
+too short   the blank's ends are farther apart in space than in the pattern: no flap exists
+no place    there are flaps, and none that was tried is free
+inside, outside, flush   where the solved ones lie
+ms          median and longest time of one edit
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from statistics import median
+
+import numpy as np
+
+from foldmill import InvalidInput
+from foldmill.axisymmetric import strip
+from foldmill.axisymmetric.points import FreePoint, LinePoint
+from foldmill_plugins.tuck import DESIGN
+from foldmill_plugins.tuck.generate import generate
+from foldmill_plugins.tuck.params import TuckParams
+
+
+@dataclass
+class Outcome:
+    """What became of a set of edits."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+    seconds: list[float] = field(default_factory=list)
+    unsolved: list[TuckParams] = field(default_factory=list)
+
+
+def single(count: int, seed: int = 1) -> Iterator[TuckParams]:
+    """Yield stools with P_4 somewhere else, a blank beside it."""
+    rng, stool = np.random.default_rng(seed), DESIGN.preset("stool-n8")
+    while count:
+        spot = FreePoint(r=float(rng.uniform(40, 170)), z=float(rng.uniform(-140, 0)))
+        params = TuckParams(n=stool.n, phi=stool.phi, points={**stool.points, 4: spot})
+        if _blanks(params) == (4,):
+            count -= 1
+            yield params
+
+
+def double(count: int, seed: int = 2) -> Iterator[TuckParams]:
+    """Yield forms with a blank of two points, P_5 and P_7, between P_3 and P_9."""
+    rng = np.random.default_rng(seed)
+    while count:
+        params = _tower(rng)
+        if _blanks(params) == (5, 7):
+            count -= 1
+            yield params
+
+
+def _tower(rng: np.random.Generator) -> TuckParams:
+    """Return a random form: a centre of p_1…p_4, two points placed by hand, and a border."""
+    n = int(rng.integers(5, 11))
+    a = np.cumsum(rng.uniform(20, 45, 9)) + 30
+    spots: dict[int, LinePoint | FreePoint] = {
+        i: LinePoint(a=float(a[i - 1]), branch=int(rng.choice([-1, 1])))  # type: ignore[arg-type]
+        for i in range(1, 10)
+    }
+    phi = float(rng.uniform(60, 120))
+    try:
+        flat = strip.solve(n, phi, {i: spots[i] for i in range(1, 6)})
+    except InvalidInput:
+        return TuckParams(n=n, phi=phi, points=spots)
+    r, z = flat.meridian[5] + rng.uniform(-25, 10, 2)
+    spots[5] = FreePoint(r=float(r), z=float(z))
+    r, z = np.array([r, z]) + rng.uniform(-30, 60, 2)
+    spots[7] = FreePoint(r=float(r), z=float(z))
+    return TuckParams(n=n, phi=phi, points=spots)
+
+
+def _blanks(params: TuckParams) -> tuple[int, ...]:
+    try:
+        return strip.solve(params.n, params.phi, dict(params.points)).off_line
+    except InvalidInput:
+        return ()
+
+
+def measure(edits: Iterator[TuckParams]) -> Outcome:
+    """Fold every edit, and sort what comes of it."""
+    out = Outcome()
+    for params in edits:
+        start = time.perf_counter()
+        try:
+            fold = generate(params)
+        except InvalidInput as error:
+            kind = "too short" if "too short" in str(error) else "no place"
+            if kind == "no place":
+                out.unsolved.append(params)
+            out.counts[kind] += 1
+        else:
+            out.counts["solved"] += 1
+            out.counts[fold.meta["tucks"][0]["lies"]] += 1
+        out.seconds.append(time.perf_counter() - start)
+    return out
+
+
+COLUMNS = ("solved", "too short", "no place", "inside", "outside", "flush")
+
+
+def main(singles: int = 250, doubles: int = 100) -> None:
+    """Print both tables."""
+    print(f"{'edits':24}" + "".join(f"{name:>10}" for name in COLUMNS) + "        ms")
+    for name, edits, count in (
+        ("one point off its line", single(singles), singles),
+        ("two points", double(doubles), doubles),
+    ):
+        out = measure(edits)
+        row = "".join(f"{out.counts[column]:10}" for column in COLUMNS)
+        times = f"{1e3 * median(out.seconds):8.0f} / {1e3 * max(out.seconds):.0f}"
+        print(f"{count:4} {name:19}{row}{times}")
+
+
+if __name__ == "__main__":
+    main(*(int(each) for each in sys.argv[1:3]))
