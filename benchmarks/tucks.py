@@ -2,8 +2,9 @@
 
     python benchmarks/tucks.py [SINGLE] [DOUBLE]
 
-SINGLE (default 250) edits move P_4 of the eight-footed stool, DOUBLE (default 100) build a form with
-two points off one line, P_5 and P_7; only edits with a valid pattern count. Columns:
+SINGLE (default 250) edits move P_4 of the eight-footed stool anywhere; DOUBLE (default 100) edits
+move P_5 and P_7 of a random rotational form, so that both share one blank. Only edits with a valid
+pattern count, whose surface does not pass through itself before there is any flap. Columns:
 
 solved      a place of the flap where it passes through nothing
 too short   the blank's ends are farther apart in space than in the pattern: no flap exists
@@ -24,8 +25,10 @@ from statistics import median
 import numpy as np
 
 from foldmill import InvalidInput
-from foldmill.axisymmetric import strip
+from foldmill.axisymmetric import rosette, strip
 from foldmill.axisymmetric.points import FreePoint, LinePoint
+from foldmill.axisymmetric.rosette import HalfWedge
+from foldmill.check.intersection import penetrations
 from foldmill_plugins.tuck import DESIGN
 from foldmill_plugins.tuck.generate import generate
 from foldmill_plugins.tuck.params import TuckParams
@@ -62,30 +65,34 @@ def double(count: int, seed: int = 2) -> Iterator[TuckParams]:
 
 
 def _tower(rng: np.random.Generator) -> TuckParams:
-    """Return a random form: a centre of p_1…p_4, two points placed by hand, and a border."""
-    n = int(rng.integers(5, 11))
+    """Return a random rotational form of nine points, P_5 and P_7 moved by up to 25 mm."""
+    n, phi = int(rng.integers(5, 11)), float(rng.uniform(60, 120))
     a = np.cumsum(rng.uniform(20, 45, 9)) + 30
+    branches = rng.choice([-1, 1], 9)
     spots: dict[int, LinePoint | FreePoint] = {
-        i: LinePoint(a=float(a[i - 1]), branch=int(rng.choice([-1, 1])))  # type: ignore[arg-type]
+        i: LinePoint.model_validate({"a": a[i - 1], "branch": int(branches[i - 1])})
         for i in range(1, 10)
     }
-    phi = float(rng.uniform(60, 120))
-    try:
-        flat = strip.solve(n, phi, {i: spots[i] for i in range(1, 6)})
-    except InvalidInput:
-        return TuckParams(n=n, phi=phi, points=spots)
-    r, z = flat.meridian[5] + rng.uniform(-25, 10, 2)
-    spots[5] = FreePoint(r=float(r), z=float(z))
-    r, z = np.array([r, z]) + rng.uniform(-30, 60, 2)
-    spots[7] = FreePoint(r=float(r), z=float(z))
+    for i in (5, 7):
+        step = rng.uniform(-25, 25, 2)
+        try:
+            r, z = strip.solve(n, phi, spots).meridian[i] + step
+        except InvalidInput:
+            break
+        spots[i] = FreePoint(r=float(r), z=float(z))
     return TuckParams(n=n, phi=phi, points=spots)
 
 
 def _blanks(params: TuckParams) -> tuple[int, ...]:
+    """Return the points off their lines; none where the form is no edit that counts."""
     try:
-        return strip.solve(params.n, params.phi, dict(params.points)).off_line
+        solved = strip.solve(params.n, params.phi, dict(params.points))
     except InvalidInput:
         return ()
+    if not solved.off_line:
+        return ()
+    form = rosette.assemble(HalfWedge.of(solved))
+    return () if len(penetrations(form.spatial, form.edges, form.faces)) else solved.off_line
 
 
 def measure(edits: Iterator[TuckParams]) -> Outcome:

@@ -82,7 +82,8 @@ def solve(
     flat[1] = (first.a, 0.0)
     tilt = np.radians(phi)
     meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
-    off_line, crossing = [], []
+    off_line: list[int] = []
+    crossing: list[int] = []
     for i in range(2, count):
         point = points[i]
         if isinstance(point, LinePoint):

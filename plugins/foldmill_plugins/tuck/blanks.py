@@ -113,8 +113,7 @@ def _measure(strip: Strip, points: tuple[int, ...]) -> Blank:
 
 def _rim(feet: Floats, beside: Floats) -> float:
     """Return where the last corner of an open blank makes a straight rim, or else one of use."""
-    straight, least = float(feet[-1]), float(feet[0])
-    return straight if straight > least + float(beside[-1]) else least + float(beside[-1])
+    return max(float(feet[-1]), float(feet[0] + beside[-1]))
 
 
 def _check(blank: Blank) -> None:

@@ -44,8 +44,8 @@ class Corners:
 
     def chosen(self, which: Flags | NDArray[np.intp]) -> Corners:
         """Return some of the choices."""
-        parts = (self.t, self.spots, self.sides, self.low, self.high, self.exists)
-        return Corners(*(part[which] for part in parts))
+        t, spots, sides = self.t[which], self.spots[which], self.sides[which]
+        return Corners(t, spots, sides, self.low[which], self.high[which], self.exists[which])
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +82,8 @@ def place(blank: Blank, shares: Floats, sides: Floats, given: Sequence[float | N
     sides : (S, k) ±1; given : k distances from the centre, mm, or None.
     """
     count, k = shares.shape
-    t, low, high = np.empty((count, k)), np.empty((count, k)), np.empty((count, k))
-    spots = np.empty((count, k, 3))
+    t, low, high = (np.zeros((count, k)) for _ in range(3))
+    spots = np.zeros((count, k, 3))
     exists = np.ones(count, bool)
     x, spot = np.full(count, blank.start), np.broadcast_to(blank.spatial[0], (count, 3))
     with np.errstate(all="ignore"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ class Flap:
 
 
 def add(half: HalfWedge, blanks: list[Blank]) -> tuple[HalfWedge, list[Flap]]:
-    """Return the half wedge with a flap in each blank, its corners not placed yet, and the flaps."""
+    """Return the half wedge with a flap in each blank, the corners not placed yet, and the flaps."""
     faces: list[list[int]] = half.faces.tolist()
     seats, flaps = list(half.seats), []
     count = len(half.flat)
@@ -73,8 +74,8 @@ def closed(flap: Flap, side: int) -> EdgeSigns:
     can also close, where the flap lies flush upon the surface: it folds back what they fold.
     """
     chain, spine = flap.blank.chain, flap.spine
-    signs = {_pair(a, b): -side for a, b in zip(chain, chain[1:], strict=False)}
-    return signs | {_pair(a, b): side for a, b in zip(spine, spine[1:], strict=False)}
+    signs = {_pair(a, b): -side for a, b in pairwise(chain)}
+    return signs | {_pair(a, b): side for a, b in pairwise(spine)}
 
 
 def _pair(a: int, b: int) -> tuple[int, int]:

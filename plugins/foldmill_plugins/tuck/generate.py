@@ -11,7 +11,6 @@ import numpy as np
 from foldmill import Fold, InvalidParameters
 from foldmill.axisymmetric import rosette, strip
 from foldmill.axisymmetric.rosette import EdgeSigns, HalfWedge, Rosette
-from foldmill.axisymmetric.strip import Strip
 from foldmill.check.intersection import penetrations
 from foldmill_plugins.tuck import blanks, classify, flaps, handles, refusals, search
 from foldmill_plugins.tuck.blanks import Blank
@@ -30,10 +29,18 @@ def generate(params: TuckParams) -> Fold:
     rose = rosette.assemble(half)
     # The two halves of a flap enclose nothing, wherever its corners are.
     inside = -1 if rosette.is_inside_out(rose) else 1
-    placed = _place(rose, made, tucks, inside)
+    wishes = [Wish.of(flap.blank, tucks, inside) for flap in made]
+    placed = _place(rose, made, wishes, inside)
     rose = flaps.put(rose, made, placed)
     _check(rose, made, placed)
-    return _fold(params, solved, rose, made, placed, inside)
+    # A flush flap lies on neither side; it is folded as if it came from the inside.
+    pairs = zip(placed, wishes, strict=True)
+    sides = [each.side or wish.side or inside for each, wish in pairs]
+    fold, meta = _fold(rose, made, sides, inside)
+    meta["tucks"] = [entry for each in placed for entry in _report(each, inside)]
+    meta["points"] = classify.figures(solved)
+    dragged = handles.of(params, solved, made, placed, inside)
+    return replace(fold, meta=meta, handles=dragged)
 
 
 def _tucks(params: TuckParams, found: list[Blank]) -> Mapping[int, Tuck]:
@@ -49,19 +56,16 @@ def _tucks(params: TuckParams, found: list[Blank]) -> Mapping[int, Tuck]:
     return chosen
 
 
-def _place(
-    rose: Rosette, made: list[Flap], tucks: Mapping[int, Tuck], inside: int
-) -> list[Placed]:
+def _place(rose: Rosette, made: list[Flap], wishes: list[Wish], inside: int) -> list[Placed]:
     """Place the flaps: first those whose corners are all given, then the others around them."""
     if not made:
         return []
     filled = np.concatenate([flap.faces for flap in made])
     number = np.arange(len(rose.faces)) % len(rose.half.faces)
     surface = rose.spatial[rose.faces[~np.isin(number, filled)]]
-    wishes = [(flap.blank, Wish.of(flap.blank, tucks, inside)) for flap in made]
-    order = sorted(range(len(made)), key=lambda k: not wishes[k][1].is_given)
+    order = sorted(range(len(made)), key=lambda k: not wishes[k].is_given)
     around = Surroundings.of(rose.half.order, surface)
-    found = search.arrange([wishes[k] for k in order], around, inside)
+    found = search.arrange([(made[k].blank, wishes[k]) for k in order], around, inside)
     return [found[order.index(k)] for k in range(len(made))]
 
 
@@ -75,31 +79,16 @@ def _check(rose: Rosette, made: list[Flap], placed: list[Placed]) -> None:
 
 
 def _fold(
-    params: TuckParams,
-    solved: Strip,
-    rose: Rosette,
-    made: list[Flap],
-    placed: list[Placed],
-    inside: int,
-) -> Fold:
-    # A flush flap lies neither inside nor outside; it is folded as if it came from the inside.
-    sides = [each.side or inside for each in placed]
+    rose: Rosette, made: list[Flap], sides: list[int], inside: int
+) -> tuple[Fold, dict[str, Any]]:
+    """Return the fold, and what is to be told of it: how the halves of its flaps are stacked."""
     closed: EdgeSigns = {}
+    orders: list[list[int]] = []
     for flap, side in zip(made, sides, strict=True):
         closed |= flaps.closed(flap, side)
-    fold = rosette.fold(rose, closed, wedge_decides=not made)
-    orders = [
-        order
-        for flap, side in zip(made, sides, strict=True)
-        for order in flaps.orders(rose, flap, side * inside)
-    ]
-    meta: dict[str, Any] = {
-        "tucks": [entry for each in placed for entry in _report(each, inside)],
-        "points": classify.figures(solved),
-    }
-    if orders:
-        meta["fold"] = {"folded": {"faceOrders": orders}}
-    return replace(fold, meta=meta, handles=handles.of(params, solved, made, placed, inside))
+        orders += flaps.orders(rose, flap, side * inside)
+    meta: dict[str, Any] = {"fold": {"folded": {"faceOrders": orders}}} if orders else {}
+    return rosette.fold(rose, closed, wedge_decides=not made), meta
 
 
 def _report(placed: Placed, inside: int) -> list[dict[str, object]]:

@@ -99,17 +99,16 @@ def no_place(
     names = {inside: "inside", -inside: "outside", 0: "inside and outside, flush"}
     if side is not None and ranges and side not in ranges:
         allowed = " and ".join(
-            f"{names[s]} (t from {low:.6g} to {high:.6g} mm)" for s, (low, high) in ranges.items()
+            f"{names[s]} ({_range(blank, *run)})" for s, run in sorted(ranges.items())
         )
         return NoPlace(
             f"The tuck beside {blank.name} cannot lie {names[side]}: the shape allows it {allowed}."
         )
     if side is not None and None not in given and side in ranges:
-        low, high = ranges[side]
         at = " and ".join(f"{t:g}" for t in given)
         return NoPlace(
-            f"The tuck beside {blank.name} does not lie {names[side]} at t = {at} mm; it does for "
-            f"a first t between {low:.6g} and {high:.6g} mm."
+            f"The tuck beside {blank.name} does not lie {names[side]} at t = {at} mm; it does "
+            f"{_range(blank, *ranges[side])}."
         )
     if None not in given:
         return _given(blank, given, ranges)
@@ -125,15 +124,16 @@ def no_place(
 def _given(
     blank: Blank, given: Sequence[float | None], ranges: Mapping[int, tuple[float, float]]
 ) -> NoPlace:
-    runs = " and ".join(f"{low:.6g} and {high:.6g} mm" for low, high in ranges.values())
-    if not ranges:
-        hint = f"no other t is free either, so move {blank.name}"
-    elif len(blank.points) == 1:
-        hint = f"between {runs} it is free"
-    else:
-        hint = f"with the first between {runs} there are free ones; leave t out to find them"
+    runs = " and ".join(_range(blank, *run) for _, run in sorted(ranges.items()))
+    hint = f"{runs} it is free" if ranges else f"no other t is free either, so move {blank.name}"
     at = " and ".join(f"{t:g}" for t in given)
     return NoPlace(f"The tuck beside {blank.name} penetrates the form at t = {at} mm; {hint}.")
+
+
+def _range(blank: Blank, low: float, high: float) -> str:
+    if low < high:
+        return f"between {low:.6g} and {high:.6g} mm"
+    return f"at {low:.6g} mm" if len(blank.points) == 1 else f"with a first t of {low:.6g} mm"
 
 
 def _span(blank: Blank) -> tuple[float, float]:

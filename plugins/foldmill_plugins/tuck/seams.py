@@ -27,16 +27,31 @@ TORN = 2
 
 def sides(blank: Blank, corners: Corners) -> Signs:
     """Return (S,) 1 for flaps below the surface, -1 above, 0 flush with it everywhere, or TORN."""
-    met = [_at_seam(blank, j, corners) for j in range(len(blank.above))]
-    low, high = np.min(met, axis=0), np.max(met, axis=0)
-    found: Signs = np.where(low * high < 0, TORN, np.sign(low + high))
+    below, above = misfits(blank, corners)
+    is_below, is_above = below <= 0, above <= 0
+    found: Signs = np.where(is_below | is_above, is_below.astype(int) - is_above, TORN)
     return found
 
 
-def _at_seam(blank: Blank, j: int, corners: Corners) -> Signs:
-    """Return (S,) 1 below, -1 above, 0 flush, at the seam between points j and j + 1 of the chain.
+def misfits(blank: Blank, corners: Corners) -> tuple[Floats, Floats]:
+    """Return by how much (S,) flaps fail to lie below, and above: angles summed over seams, rad."""
+    below, above = np.zeros(len(corners.t)), np.zeros(len(corners.t))
+    for j in range(len(blank.above)):
+        angle, width = _at_seam(blank, j, corners)
+        past = np.minimum(angle, width - angle)
+        short = np.where(angle > width, np.minimum(angle - width, 2 * np.pi - angle), 0.0)
+        limit = np.radians(CLOSED_DEG)
+        below += np.where(past > limit, past, 0.0)
+        above += np.where(short > limit, short, 0.0)
+    return below, above
 
-    There lies the flap's facet with corner t of point j (of the first point for A).
+
+def _at_seam(blank: Blank, j: int, corners: Corners) -> tuple[Floats, float]:
+    """Return the angle (S,) of the flaps, and of the surface's other part, round a seam, rad.
+
+    Both from 0 to 2π, counted from one part over its upper side. The seam is that between points j
+    and j + 1 of the chain; there lies the flap's facet with the corner of point j (for A, of the
+    first point).
     """
     start, end, beyond = blank.spatial[j], blank.spatial[j + 1], blank.above[j]
     axis = (end - start) / np.linalg.norm(end - start)
@@ -50,11 +65,7 @@ def _at_seam(blank: Blank, j: int, corners: Corners) -> Signs:
     width = float(np.arctan2(mirrored @ upward, mirrored @ into)) % (2 * np.pi)
     with np.errstate(invalid="ignore"):
         angle = np.arctan2(tip @ upward, tip @ into) % (2 * np.pi)
-    limit = np.radians(CLOSED_DEG)
-    on_one = (angle < limit) | (angle > 2 * np.pi - limit)
-    flush = on_one | (np.abs(angle - width) < limit)
-    found: Signs = np.where(flush, 0, np.where(angle < width, -1, 1))
-    return found
+    return angle, width
 
 
 def _perpendicular(vector: Floats, axis: Floats) -> Floats:

@@ -25,7 +25,7 @@ from foldmill_plugins.tuck.clearance import Surroundings, depths
 from foldmill_plugins.tuck.corners import Corners, place
 from foldmill_plugins.tuck.params import Lies, Tuck
 from foldmill_plugins.tuck.refusals import NoPlace
-from foldmill_plugins.tuck.seams import TORN, sides
+from foldmill_plugins.tuck.seams import TORN, misfits, sides
 
 Floats = NDArray[np.float64]
 
@@ -115,29 +115,24 @@ def _options(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> Ite
         found = [_tried(blank, np.ones((1, len(blank.points))), p, wish, around) for p in patterns]
         options = [Placed(blank, f.corners, int(f.side[0])) for f in found if f.free(wish)[0]]
     elif len(blank.points) == 1:
-        options, found = _single(blank, wish, around, patterns)
+        options = _single(blank, wish, around, patterns)
     else:
-        options, found = _several(blank, wish, around, patterns)
+        options = _several(blank, wish, around, patterns)
     if not options:
-        raise _refusal(blank, wish, around, inside, found)
-    yield from options
+        raise _refusal(blank, wish, around, inside)
+    # The rim of an open blank folds to either side; it is hidden where it can be.
+    yield from sorted(options, key=lambda each: blank.is_open and each.side == -inside)
 
 
-def _refusal(
-    blank: Blank, wish: Wish, around: Surroundings, inside: int, found: list[_Found]
-) -> NoPlace:
+def _refusal(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> NoPlace:
     """Say why there is no option, and what there is beside it."""
     loose = Wish(tuple(None for _ in wish.given), wish.sides, None)
-    if wish.is_given:
-        solve = _single if len(blank.points) == 1 else _several
-        _, found = solve(blank, loose, around, _patterns(blank, loose, around))
+    solve = _single if len(blank.points) == 1 else _several
+    options = solve(blank, loose, around, _patterns(blank, loose, around))
     ranges: dict[int, tuple[float, float]] = {}
-    for each in found:
-        free = each.free(loose)
-        for side in np.unique(each.side[free]):
-            t = each.corners.t[free & (each.side == side), 0]
-            low, high = ranges.get(int(side), (np.inf, -np.inf))
-            ranges[int(side)] = (min(low, float(t.min())), max(high, float(t.max())))
+    for option in options:
+        t = float(option.corners.t[0, 0])
+        ranges.setdefault(option.side, option.run or (t, t))
     return refusals.no_place(blank, wish.given, ranges, wish.side, inside)
 
 
@@ -163,7 +158,7 @@ def _tried(
 
 def _single(
     blank: Blank, wish: Wish, around: Surroundings, patterns: list[tuple[int, ...]]
-) -> tuple[list[Placed], list[_Found]]:
+) -> list[Placed]:
     """Sample the one t; the finer sampling only where the coarse one finds nothing."""
     for count in RUNS:
         even = (np.arange(count) + 0.5) / count
@@ -171,9 +166,8 @@ def _single(
         found = [_tried(blank, shares, pattern, wish, around) for pattern in patterns]
         runs = [run for each in found for run in _runs(blank, each, wish)]
         if runs:
-            # Of an open blank the straight rim is best, and the inside where nobody says otherwise.
-            return [run for _, run in sorted(runs, key=lambda each: each[0])], found
-    return [], found
+            return [run for _, run in sorted(runs, key=lambda each: each[0])]
+    return []
 
 
 def _runs(blank: Blank, found: _Found, wish: Wish) -> Iterator[tuple[tuple[float, int], Placed]]:
@@ -187,7 +181,7 @@ def _runs(blank: Blank, found: _Found, wish: Wish) -> Iterator[tuple[tuple[float
         t = found.corners.t[part, 0]
         low, high = float(t.min()), float(t.max())
         if blank.is_open:
-            best, key = int(part[0]), (float(part[0]), -side)
+            best, key = int(part[0]), (int(part[0]), -side)  # the straight rim comes first
         else:
             best = int(part[len(part) // 2])
             key = (-len(part), -side)
@@ -197,16 +191,17 @@ def _runs(blank: Blank, found: _Found, wish: Wish) -> Iterator[tuple[tuple[float
 
 def _several(
     blank: Blank, wish: Wish, around: Surroundings, patterns: list[tuple[int, ...]]
-) -> tuple[list[Placed], list[_Found]]:
+) -> list[Placed]:
     shares = evenly(SPREAD, len(blank.points))
     if blank.is_open:
         shares[:, -1] = 1.0
     found = [_tried(blank, shares, pattern, wish, around) for pattern in patterns]
     if not any(each.free(wish).any() for each in found):
-        found = [_refined(blank, each, p, wish, around) for each, p in zip(found, patterns, strict=True)]
+        pairs = zip(found, patterns, strict=True)
+        found = [_refined(blank, each, pattern, wish, around) for each, pattern in pairs]
     best = [_farthest(each, wish) for each in found]
     ranked = sorted((entry for entries in best for entry in entries), key=lambda entry: -entry[0])
-    return [Placed(blank, corners, side) for _, corners, side in ranked], found
+    return [Placed(blank, corners, side) for _, corners, side in ranked]
 
 
 def _refined(
@@ -214,7 +209,7 @@ def _refined(
 ) -> _Found:
     """Gather more samples about those that pass through least, ever nearer."""
     rng = np.random.default_rng(SEED)
-    shares, penalty = found.shares, _penalty(found, wish)
+    shares, penalty = found.shares, _penalty(blank, found, wish)
     width = 0.1
     for _ in range(ROUNDS):
         best = np.argsort(penalty, kind="stable")[:BEST]
@@ -230,18 +225,17 @@ def _refined(
         if found.free(wish).any():
             break
         shares = np.concatenate([shares, near])
-        penalty = np.concatenate([penalty, _penalty(found, wish)])
+        penalty = np.concatenate([penalty, _penalty(blank, found, wish)])
         width *= 0.6
     return found
 
 
-def _penalty(found: _Found, wish: Wish) -> Floats:
-    wrong = found.side == TORN
-    if wish.side is not None:
-        wrong |= ~np.isin(found.side, (0, wish.side))
-    finite = found.depth[np.isfinite(found.depth)]
-    worst = float(finite.max()) if len(finite) else 0.0
-    return found.depth + np.where(wrong, worst + 1.0, 0.0)
+def _penalty(blank: Blank, found: _Found, wish: Wish) -> Floats:
+    """Return how far from free each sample is: what it passes through, and where it is torn, mm."""
+    below, above = misfits(blank, found.corners)
+    misfit = {1: below, -1: above, None: np.minimum(below, above)}[wish.side]
+    penalty: Floats = found.depth + (blank.end - blank.start) * np.nan_to_num(misfit, nan=np.inf)
+    return penalty
 
 
 def _farthest(found: _Found, wish: Wish) -> list[tuple[float, Corners, int]]:

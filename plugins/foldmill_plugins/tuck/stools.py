@@ -24,7 +24,6 @@ from foldmill_plugins.tuck.params import Tuck, TuckParams
 from foldmill_plugins.tuck.stool_points import STOOL_N4_POINTS, STOOL_N6_POINTS, STOOL_N8_POINTS
 
 
-
 def _tuck(t: float) -> Tuck:
     return Tuck(point=4, t=t, side=1)
 
