@@ -4,7 +4,8 @@
 
 SINGLE (default 250) edits move P_4 of the eight-footed stool anywhere; DOUBLE (default 100) edits
 move P_5 and P_7 of a random rotational form, so that both share one blank. Only edits with a valid
-pattern count, whose surface does not pass through itself before there is any flap. Columns:
+pattern count, whose surface does not pass through itself before there is any flap, and whose points
+lie at least 2 mm inside their lines: less is no paper to fold. Columns:
 
 solved      a place of the flap where it passes through nothing
 too short   the blank's ends are farther apart in space than in the pattern: no flap exists
@@ -89,10 +90,17 @@ def _blanks(params: TuckParams) -> tuple[int, ...]:
         solved = strip.solve(params.n, params.phi, dict(params.points))
     except InvalidInput:
         return ()
-    if not solved.off_line:
+    if not solved.off_line or min(_beside(solved, i) for i in solved.off_line) < 2:
         return ()
     form = rosette.assemble(HalfWedge.of(solved))
     return () if len(penetrations(form.spatial, form.edges, form.faces)) else solved.off_line
+
+
+def _beside(solved: strip.Strip, i: int) -> float:
+    """Return how far a point lies inside its line, mm."""
+    x, y = solved.flat[i]
+    angle = solved.theta if i % 2 == 0 else 0.0
+    return float(abs(y * np.cos(angle) - x * np.sin(angle)))
 
 
 def measure(edits: Iterator[TuckParams]) -> Outcome:

@@ -34,7 +34,7 @@ class Flap:
 
 
 def add(half: HalfWedge, blanks: list[Blank]) -> tuple[HalfWedge, list[Flap]]:
-    """Return the half wedge with a flap in each blank, the corners not placed yet, and the flaps."""
+    """Return the half wedge with a flap in each blank, and the flaps; no corner is placed yet."""
     faces: list[list[int]] = half.faces.tolist()
     seats, flaps = list(half.seats), []
     count = len(half.flat)
