@@ -72,7 +72,9 @@ def test_a_point_beyond_its_line_is_invalid_and_exceeds_360_degrees_before_it() 
 
 
 def test_a_plain_rotational_form_has_360_degrees_everywhere_inside() -> None:
-    points = {i: LinePoint(a=a) for i, a in enumerate((40, 62, 92, 118), start=1)}
+    points: dict[int, LinePoint | FreePoint] = {
+        i: LinePoint(a=a) for i, a in enumerate((40, 62, 92, 118), start=1)
+    }
     found, _ = classified(TuckParams(n=8, phi=80, points=points))
     inner = [state for state in found.values() if not state.is_rim]
     assert [state.pattern_deg for state in inner] == pytest.approx([360, 360])

@@ -126,6 +126,8 @@ def _options(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> Ite
 
 def _refusal(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> NoPlace:
     """Say why there is no option, and what there is beside it."""
+    if wish.side is None and not any(wish.given):
+        return refusals.no_place(blank, wish.given, {}, None, inside)
     loose = Wish(tuple(None for _ in wish.given), wish.sides, None)
     solve = _single if len(blank.points) == 1 else _several
     options = solve(blank, loose, around, _patterns(blank, loose, around))
