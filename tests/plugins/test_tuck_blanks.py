@@ -301,3 +301,18 @@ def test_a_surface_without_its_flaps_is_what_the_points_say() -> None:
     filled = space(form("basket"))
     gaps = np.linalg.norm(bare[:, None] - filled[None], axis=2)
     assert gaps.min(axis=1).max() < 1e-9
+
+
+@FORMS
+def test_a_flap_found_is_the_same_when_all_of_it_is_stated(name: str) -> None:
+    fold = form(name)
+    values = (ALL | {"long": LONG, "dome": DOME})[name]
+    sides = [side for flap in fold.meta["flaps"] for side in flap["sides"]]
+    tucks = [
+        {"point": tuck["point"], "t": tuck["t"], "side": side}
+        | ({} if tuck["lies"] == "flush" else {"lies": tuck["lies"]})
+        for tuck, side in zip(fold.meta["tucks"], sides, strict=True)
+    ]
+    again = DESIGN.run(values | {"tucks": tucks})
+    assert np.abs(space(again) - space(fold)).max() < 1e-3  # t is told to 1e-6 mm
+    assert again.pattern.letters() == fold.pattern.letters()

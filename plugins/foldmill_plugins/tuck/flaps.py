@@ -89,22 +89,10 @@ def orders(rose: Rosette, flap: Flap, sign: int) -> list[list[int]]:
     which the other's normal points; -1 where their backs do.
     """
     half, wedge = len(rose.half.faces), 2 * len(rose.half.faces)
+    # The mirror image of a half wedge about l2 belongs to the next wedge.
+    across = half if flap.blank.first % 2 else half + wedge
     return [
-        [turn * wedge + int(face), _twin(rose, turn, int(face), half), sign]
-        for turn in range(rose.half.order)
+        [start + int(face), (start + int(face) + across) % len(rose.faces), sign]
+        for start in range(0, len(rose.faces), wedge)
         for face in flap.faces
     ]
-
-
-def _twin(rose: Rosette, turn: int, face: int, half: int) -> int:
-    """Return the mirrored facet that lies upon one: about l2 it belongs to the next wedge."""
-    mirrored = 2 * half * turn + half + face
-    shared = set(rose.faces[2 * half * turn + face].tolist())
-    if len(shared & set(rose.faces[mirrored].tolist())) > 0 and _meets(rose, shared, mirrored):
-        return mirrored
-    return int((mirrored + 2 * half) % len(rose.faces))
-
-
-def _meets(rose: Rosette, corners: set[int], face: int) -> bool:
-    tips = [v for v in corners if rose.half.seats[rose.origin[v]] in {Seat.L1, Seat.L2}]
-    return set(tips) <= set(rose.faces[face].tolist())

@@ -38,6 +38,7 @@ def generate(params: TuckParams) -> Fold:
     sides = [each.side or wish.side or inside for each, wish in pairs]
     fold, meta = _fold(rose, made, sides, inside)
     meta["tucks"] = [entry for each in placed for entry in _report(each, inside)]
+    meta["flaps"] = [_shape(each) for each in placed]
     meta["points"] = classify.figures(solved)
     dragged = handles.of(params, solved, made, placed, inside)
     return replace(fold, meta=meta, handles=dragged)
@@ -97,3 +98,9 @@ def _report(placed: Placed, inside: int) -> list[dict[str, object]]:
         {"point": i, "t": round(float(t), 6), "lies": lies}
         for i, t in zip(placed.blank.points, placed.corners.t[0], strict=True)
     ]
+
+
+def _shape(placed: Placed) -> dict[str, object]:
+    """Return what a flap's corners do not say: their sides, and what kind of blank it fills."""
+    sides = [int(side) for side in placed.corners.sides[0]]
+    return {"points": list(placed.blank.points), "sides": sides, "open": placed.blank.is_open}
