@@ -62,16 +62,15 @@ def states(
     them and about the point before them, which then exceed 360°. Raises InvalidInput only where not
     even points 1 and 2 are solved.
     """
-    reason = ""
-    for count in range(len(points), 1, -1):
+    reason, count = "", len(points)
+    while True:
         some = {i: points[i] for i in range(1, count + 1)}
         try:
             return of_strip(strip.solve(order, phi, some, refuse_crossing=False)), reason
         except InvalidInput as error:
-            reason = str(error)
-            if count == 2:
+            if count <= 2:
                 raise
-    raise AssertionError
+            reason, count = str(error), count - 1
 
 
 def figures(solved: Strip) -> list[dict[str, Any]]:
