@@ -38,6 +38,8 @@ class Strip:
     """(T+1, 2) P_0 … P_T as (r, z) in their planes, mm; r is signed."""
     off_line: tuple[int, ...]
     """Points strictly inside the wedge: each leaves a blank beside it."""
+    crossing: tuple[int, ...] = ()
+    """Points beyond their line, only where they were not refused: no sheet has paper for them."""
 
     @property
     def theta(self) -> float:
@@ -58,10 +60,17 @@ class Strip:
         return bool((r >= 0).all() or (r <= 0).all())
 
 
-def solve(order: int, phi: float, points: Mapping[int, LinePoint | FreePoint]) -> Strip:
+def solve(
+    order: int,
+    phi: float,
+    points: Mapping[int, LinePoint | FreePoint],
+    *,
+    refuse_crossing: bool = True,
+) -> Strip:
     """Solve the strip from its centre outwards.
 
-    order : N ≥ 3; phi : deg in [0, 180]; points : p_1 … p_T by number.
+    order : N ≥ 3; phi : deg in [0, 180]; points : p_1 … p_T by number;
+    refuse_crossing : false keeps points beyond their line, for a report on them.
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where a P_i has no place
     or lies beyond its symmetry line; both name i and by how much.
     """
@@ -74,7 +83,8 @@ def solve(order: int, phi: float, points: Mapping[int, LinePoint | FreePoint]) -
     tilt = np.radians(phi)
     meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
     _refuse_near(1, flat)
-    off_line = []
+    off_line: list[int] = []
+    crossing: list[int] = []
     for i in range(2, count):
         point = points[i]
         if isinstance(point, LinePoint):
@@ -85,9 +95,12 @@ def solve(order: int, phi: float, points: Mapping[int, LinePoint | FreePoint]) -
             meridian[i] = (point.r, point.z)
             flat[i] = _unfold(i, flat, meridian, theta)
             _refuse_near(i, flat)
-            if _is_off_line(i, flat, theta):
-                off_line.append(i)
-    return Strip(order, flat, meridian, tuple(off_line))
+            side = _side_of_line(i, flat, theta)
+            if side < 0 and refuse_crossing:
+                raise _crossing_refusal(i, flat, theta)
+            if side:
+                (off_line if side > 0 else crossing).append(i)
+    return Strip(order, flat, meridian, tuple(off_line), tuple(crossing))
 
 
 def _refuse_near(i: int, flat: Floats) -> None:
@@ -255,17 +268,25 @@ def _unfold(i: int, flat: Floats, meridian: Floats, theta: float) -> Floats:
     return spot
 
 
-def _is_off_line(i: int, flat: Floats, theta: float) -> bool:
-    """Tell whether p_i is strictly inside; snap it where it is on its line; refuse it beyond."""
+def _inside(i: int, flat: Floats, theta: float) -> float:
+    """Return how far p_i lies inside its line, mm."""
     along = _direction(i, theta)
     inward = np.array([along[1], -along[0]]) * (1 if i % 2 == 0 else -1)
-    inside, size = float(flat[i] @ inward), float(np.abs(flat).max())
-    if abs(inside) <= ON_LINE * size:
+    return float(flat[i] @ inward)
+
+
+def _side_of_line(i: int, flat: Floats, theta: float) -> int:
+    """Return 1 where p_i is strictly inside, -1 beyond its line; snap it where it is on it: 0."""
+    inside, along = _inside(i, flat, theta), _direction(i, theta)
+    if abs(inside) <= ON_LINE * float(np.abs(flat).max()):
         flat[i] = float(flat[i] @ along) * along
-        return False
-    if inside < 0:
-        raise ImpossibleGeometry(
-            f"Point {i} crosses its symmetry line by {-inside:.4g} mm in the pattern: there is no "
-            f"paper for it (the angles about point {i - 2} exceed 360°). Move it back by r or z."
-        )
-    return True
+        return 0
+    return 1 if inside > 0 else -1
+
+
+def _crossing_refusal(i: int, flat: Floats, theta: float) -> ImpossibleGeometry:
+    return ImpossibleGeometry(
+        f"Point {i} crosses its symmetry line by {-_inside(i, flat, theta):.4g} mm in the pattern: "
+        f"there is no paper for it (the angles about point {i - 2} exceed 360°). Move it back by r "
+        f"or z."
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from foldmill import Design, hookimpl
+from foldmill_plugins.tuck.cups import CUPS
 from foldmill_plugins.tuck.generate import generate
 from foldmill_plugins.tuck.params import TuckParams
 from foldmill_plugins.tuck.stools import STOOLS
@@ -12,7 +13,7 @@ DESIGN = Design(
     title="Axisymmetric form with tucks",
     params=TuckParams,
     generate=generate,
-    presets=STOOLS,
+    presets={**STOOLS, **CUPS},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 4",),
 )
 

@@ -1,23 +1,13 @@
-"""Blanks: the surplus paper beside a point inside its wedge, and the corner T that folds it away.
+"""Blanks: the surplus paper beside points inside their wedge, between A and B on the symmetry line.
 
-A blank with one inner point p_i lies between A = p_{i-2} and B = p_{i+2} on the symmetry line. The
-corner t on AB is creased to A, B, p_i and the mirror image of p_i. T is where three spheres about
-P_A, P_i and P_B meet (thesis 4.1.1): with τ = |A t|, c the foot of p_i on AB, L = |AB|,
-
-    (T − P_A)·(P_B − P_A) = (2 L τ − L² + |P_A P_B|²) / 2      (T − P_A)·(P_i − P_A) = τ c
-
-so T's foot in the plane is linear in τ, and the square of its height above it is quadratic.
-
-Where |P_A P_B| < L there is always a t with a T: fold the blank along the bisector of its angle at
-p_i, and its ends come as near as ||A p_i| − |B p_i||, which is nearer than P_A and P_B ever are.
-The flap's triangles (A, p_i, t) and (t, p_i, B) cannot turn over in the pattern either: p_i lies
-strictly beside the line, and t strictly between A and B.
+A blank holds k ≥ 1 consecutive points p_i, p_{i+2} … off one line (thesis 4.1.1, Figs. 4.5, 4.7).
+It is folded along AB and at corners t_i, t_{i+2} … on AB, one for each point. An *open* blank ends
+at the boundary of the sheet: it has no B.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,107 +21,114 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Blank:
-    """One blank of the half wedge: where T's foot and height are, as functions of τ."""
+    """One blank of the half wedge, flat and in space."""
 
-    point: int
-    start: float
-    """Distance of A from the centre, mm; t = start + τ."""
-    length: float
-    """L = |AB| in the pattern, mm."""
-    along: Floats
-    """(2,) unit vector of the symmetry line."""
+    points: tuple[int, ...]
+    """The points off the line, k ≥ 1 of one parity."""
+    is_open: bool
     azimuth: float
-    """Azimuth of the plane, rad."""
-    foot: Floats
-    """(2, 2): T's foot in the plane is foot[0] + τ·foot[1], as (r, z), mm."""
-    base: Floats
-    """(2,) P_A as (r, z)."""
+    """Azimuth of the plane, rad; also that of the line in the pattern."""
+    feet: Floats
+    """(k + 2,) distance from the centre of A, of the points' feet on the line, and of B, mm. For an
+    open blank the last is where the corner lies if nobody says otherwise."""
+    beside: Floats
+    """(k + 2,) distance from the line of the same, mm; 0 for the ends."""
+    spatial: Floats
+    """(k + 2, 3) P_A, P_i … P_B, mm; without P_B for an open blank."""
+    above: Floats
+    """(k + 1, 3) the point P_{i-1} beyond each seam A-p_i, p_i-p_{i+2} …, mm; k for an open one."""
 
     @property
-    def ends(self) -> tuple[int, int]:
-        """The points A and B."""
-        return self.point - 2, self.point + 2
+    def first(self) -> int:
+        """A's number."""
+        return self.points[0] - 2
 
-    def squared_height(self, tau: float) -> float:
-        """Return the square of T's distance from the plane, mm²; negative where there is no T."""
-        return tau**2 - float(np.sum((self.foot[0] + tau * self.foot[1] - self.base) ** 2))
+    @property
+    def chain(self) -> tuple[int, ...]:
+        """The numbers of A, the points, and B where there is one."""
+        return (self.first, *self.points, *(() if self.is_open else (self.points[-1] + 2,)))
 
-    def reach(self) -> tuple[float, float]:
-        """Return the open interval of t in which T exists; raises ImpossibleGeometry for none."""
-        offset, slope = self.foot[0] - self.base, self.foot[1]
-        a, b, c = 1 - slope @ slope, -2 * (offset @ slope), -(offset @ offset)
-        roots = np.roots([a, b, c])
-        real = np.sort(roots[np.isreal(roots)].real)
-        cuts = np.unique(np.clip(np.concatenate([[0.0, self.length], real]), 0.0, self.length))
-        runs = [
-            (low, high)
-            for low, high in pairwise(cuts)
-            if high - low > COINCIDENT_MM and self.squared_height((low + high) / 2) > 0
-        ]
-        if not runs:
-            raise ImpossibleGeometry(
-                f"The blank beside point {self.point} cannot be tucked: no place of its corner "
-                f"between points {self.ends[0]} and {self.ends[1]} reaches all three points in "
-                f"space. Move point {self.point}, or points {self.ends[1]} and beyond."
-            )
-        low, high = max(runs, key=lambda run: run[1] - run[0])
-        return self.start + float(low), self.start + float(high)
+    @property
+    def along(self) -> Floats:
+        """(2,) unit vector of the symmetry line."""
+        return np.array([np.cos(self.azimuth), np.sin(self.azimuth)])
 
-    def corner(self, t: float, side: int) -> tuple[Floats, Floats]:
-        """Return t in the pattern (2,) and T in space (3,); raises ImpossibleGeometry."""
-        low, high = self.reach()
-        if not self.start < t < self.start + self.length:
-            raise ImpossibleGeometry(
-                f"The tuck beside point {self.point} has t = {t:g} mm, off its segment: give it a "
-                f"value between {self.start:.6g} and {self.start + self.length:.6g} mm."
-            )
-        if not low < t < high:
-            raise ImpossibleGeometry(
-                f"The tuck beside point {self.point} has no place in space at t = {t:g} mm: give "
-                f"it a value between {low:.6g} and {high:.6g} mm."
-            )
-        tau = t - self.start
-        r, z = self.foot[0] + tau * self.foot[1]
-        h = side * np.sqrt(self.squared_height(tau))
-        cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
-        return t * self.along, np.array([r * cos - h * sin, r * sin + h * cos, z])
+    @property
+    def across(self) -> Floats:
+        """(3,) unit normal of the symmetry plane, counter-clockwise seen from above."""
+        return np.array([-np.sin(self.azimuth), np.cos(self.azimuth), 0.0])
+
+    @property
+    def start(self) -> float:
+        """Distance of A from the centre, mm."""
+        return float(self.feet[0])
+
+    @property
+    def end(self) -> float:
+        """Distance of B from the centre, mm; for an open blank, where its last corner lies."""
+        return float(self.feet[-1])
+
+    @property
+    def name(self) -> str:
+        """ "point 4" or "points 5 and 7"."""
+        numbers = [str(i) for i in self.points]
+        if len(numbers) == 1:
+            return f"point {numbers[0]}"
+        return f"points {', '.join(numbers[:-1])} and {numbers[-1]}"
 
 
 def find(strip: Strip) -> list[Blank]:
     """Return the blanks of a strip, innermost first; raises ImpossibleGeometry."""
-    return [_measure(strip, i) for i in strip.off_line]
+    off = set(strip.off_line)
+    found = []
+    for i in sorted(off):
+        if i - 2 not in off:
+            run = [i]
+            while run[-1] + 2 in off:
+                run.append(run[-1] + 2)
+            found.append(_measure(strip, tuple(run)))
+    for blank in found:
+        if not blank.is_open:
+            _check(blank)
+    return found
 
 
-def _measure(strip: Strip, i: int) -> Blank:
-    a, b = i - 2, i + 2
-    if b >= len(strip.flat):
-        raise ImpossibleGeometry(
-            f"The blank beside point {i} is open: add points up to {b}, on its line, to close it."
-        )
-    for neighbour in (a, b):
-        if neighbour in strip.off_line:
-            raise ImpossibleGeometry(
-                f"Points {min(i, neighbour)} and {max(i, neighbour)} share one blank; a tuck needs "
-                f"a blank with one free point. Put point {neighbour} on its line by an a."
-            )
-    azimuth = strip.theta if i % 2 == 0 else 0.0
+def _measure(strip: Strip, points: tuple[int, ...]) -> Blank:
+    is_open = points[-1] + 2 >= len(strip.flat)
+    chain = [points[0] - 2, *points, *([] if is_open else [points[-1] + 2])]
+    azimuth = strip.theta if points[0] % 2 == 0 else 0.0
     along = np.array([np.cos(azimuth), np.sin(azimuth)])
-    start, end = float(strip.flat[a] @ along), float(strip.flat[b] @ along)
-    pa, pi, pb = strip.meridian[a], strip.meridian[i], strip.meridian[b]
-    length, gap = end - start, float(np.hypot(*(pb - pa)))
+    flat = strip.flat[chain]
+    feet = flat @ along
+    beside = np.abs(flat @ np.array([-along[1], along[0]]))
+    beside[0] = 0.0
+    if is_open:
+        feet, beside = np.append(feet, _rim(feet, beside)), np.append(beside, 0.0)
+    else:
+        beside[-1] = 0.0
+    between = [i - 1 for i in chain[1:]]
+    spatial = strip.spatial
+    return Blank(points, is_open, azimuth, feet, beside, spatial[chain], spatial[between])
+
+
+def _rim(feet: Floats, beside: Floats) -> float:
+    """Return where the last corner of an open blank makes a straight rim, or else one of use."""
+    return max(float(feet[-1]), float(feet[0] + beside[-1]))
+
+
+def _check(blank: Blank) -> None:
+    a, b = blank.chain[0], blank.chain[-1]
+    gap = float(np.linalg.norm(blank.spatial[-1] - blank.spatial[0]))
+    length = blank.end - blank.start
     if gap > length:
         raise ImpossibleGeometry(
-            f"The gap beside point {i} is too short: points {a} and {b} are {gap:.6g} mm apart in "
-            f"space, but only {length:.6g} mm in the pattern ({gap - length:.3g} mm too few)."
+            f"The gap beside {blank.name} is too short: points {a} and {b} are {gap:.6g} mm apart "
+            f"in space, but only {length:.6g} mm in the pattern ({gap - length:.3g} mm too few)."
         )
-    inner = float(strip.flat[i] @ along) - start
-    matrix = np.array([pb - pa, pi - pa])
-    if abs(np.linalg.det(matrix)) < COINCIDENT_MM * strip.flat.max():
+    one, two = blank.spatial[1] - blank.spatial[0], blank.spatial[2] - blank.spatial[0]
+    if np.linalg.norm(np.cross(one, two)) < COINCIDENT_MM * float(np.abs(blank.feet).max()):
+        x, y, z = blank.chain[:3]
         raise ImpossibleGeometry(
-            f"Points {a}, {i} and {b} are in one line in space, so that the blank beside point {i} "
-            f"has no determined tuck; move point {i} a little."
+            f"Points {x}, {y} and {z} are in one line in space, so that the blank beside "
+            f"{blank.name} has no determined tuck; move point {y} a little."
         )
-    constant = np.linalg.solve(matrix, [(gap**2 - length**2) / 2, 0.0])
-    linear = np.linalg.solve(matrix, [length, inner])
-    foot = np.array([pa + constant, linear])
-    return Blank(i, start, length, along, azimuth, foot, pa)

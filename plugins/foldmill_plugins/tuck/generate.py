@@ -2,150 +2,105 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from foldmill import Fold, ImpossibleGeometry, InvalidParameters
+from foldmill import Fold, InvalidParameters
 from foldmill.axisymmetric import rosette, strip
-from foldmill.axisymmetric.rosette import HalfWedge, Rosette, Seat
+from foldmill.axisymmetric.rosette import EdgeSigns, HalfWedge, Rosette
 from foldmill.check.intersection import penetrations
-from foldmill_plugins.tuck import blanks
+from foldmill_plugins.tuck import blanks, classify, flaps, handles, refusals, search
 from foldmill_plugins.tuck.blanks import Blank
+from foldmill_plugins.tuck.clearance import Surroundings
+from foldmill_plugins.tuck.flaps import Flap
 from foldmill_plugins.tuck.params import Tuck, TuckParams
-
-SAMPLES = 48
-"""Places of t that the automatic tuck tries: 2 % of its range apart, finer than anyone folds."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Flap:
-    """A tuck in the making: its blank, its choice, and where its corner and facets are."""
-
-    blank: Blank
-    tuck: Tuck
-    corner: int
-    """Number of its corner among the half wedge's points."""
-    faces: tuple[int, int]
+from foldmill_plugins.tuck.search import Placed, Wish
 
 
 def generate(params: TuckParams) -> Fold:
     """Return the fold; raises ImpossibleGeometry where a blank cannot be tucked."""
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    half, flaps = _add_flaps(HalfWedge.of(solved), blanks.find(solved), params.tucks)
+    found = blanks.find(solved)
+    tucks = _tucks(params, found)
+    half, made = flaps.add(HalfWedge.of(solved), found)
     rose = rosette.assemble(half)
-    for flap in flaps:
-        t = _given(rose, flap) if flap.tuck.t is not None else _automatic(rose, flap)
-        rose = _at(rose, flap, t)
-    closed = {pair: sign for flap in flaps for pair, sign in _closed(rose, flap).items()}
-    fold = rosette.fold(rose, closed, wedge_decides=not flaps)
-    return replace(fold, meta={"tucks": [_report(rose, flap, closed) for flap in flaps]})
+    # The two halves of a flap enclose nothing, wherever its corners are.
+    inside = -1 if rosette.is_inside_out(rose) else 1
+    wishes = [Wish.of(flap.blank, tucks, inside) for flap in made]
+    placed = _place(rose, made, wishes, inside)
+    rose = flaps.put(rose, made, placed)
+    _check(rose, made, placed)
+    # A flush flap lies on neither side; it is folded as if it came from the inside.
+    pairs = zip(placed, wishes, strict=True)
+    sides = [each.side or wish.side or inside for each, wish in pairs]
+    fold, meta = _fold(rose, made, sides, inside)
+    meta["tucks"] = [entry for each in placed for entry in _report(each, inside)]
+    meta["flaps"] = [_shape(each) for each in placed]
+    meta["points"] = classify.figures(solved)
+    dragged = handles.of(params, solved, made, placed, inside)
+    return replace(fold, meta=meta, handles=dragged)
 
 
-def _add_flaps(
-    half: HalfWedge, found: list[Blank], tucks: tuple[Tuck, ...]
-) -> tuple[HalfWedge, list[_Flap]]:
-    chosen = {tuck.point: tuck for tuck in tucks}
-    if len(chosen) < len(tucks):
+def _tucks(params: TuckParams, found: list[Blank]) -> Mapping[int, Tuck]:
+    chosen = {tuck.point: tuck for tuck in params.tucks}
+    if len(chosen) < len(params.tucks):
         raise InvalidParameters("Two tucks name the same point; leave one of them out.")
-    idle = sorted(set(chosen) - {blank.point for blank in found})
+    idle = sorted(set(chosen) - {i for blank in found for i in blank.points})
     if idle:
         raise InvalidParameters(
             f"There is no blank beside point {idle[0]}, so it needs no tuck: leave that tuck out, "
             f"or move the point off its line by giving it r and z."
         )
-    faces: list[list[int]] = half.faces.tolist()
-    flaps: list[_Flap] = []
-    for blank in found:
-        corner, (a, b) = len(half.flat) + len(flaps), blank.ends
-        pair = [[a, blank.point, corner], [corner, blank.point, b]]
-        faces += pair if blank.point % 2 == 0 else [triangle[::-1] for triangle in pair]
-        tuck = chosen.get(blank.point, Tuck(point=blank.point))
-        flaps.append(_Flap(blank, tuck, corner, (len(faces) - 2, len(faces) - 1)))
-    middle = [blank.corner(float(np.mean(blank.reach())), 1) for blank in found]
-    seats = tuple(Seat.L2 if blank.point % 2 == 0 else Seat.L1 for blank in found)
-    return replace(
-        half,
-        flat=np.vstack([half.flat, *(spot for spot, _ in middle)]),
-        spatial=np.vstack([half.spatial, *(spot for _, spot in middle)]),
-        seats=half.seats + seats,
-        faces=np.array(faces, np.intp),
-    ), flaps
+    return chosen
 
 
-def _at(rose: Rosette, flap: _Flap, t: float) -> Rosette:
-    """Return the form with the flap's corner at t."""
-    flat, spatial = rose.half.flat.copy(), rose.half.spatial.copy()
-    flat[flap.corner], spatial[flap.corner] = flap.blank.corner(t, flap.tuck.side)
-    return rose.moved(replace(rose.half, flat=flat, spatial=spatial))
+def _place(rose: Rosette, made: list[Flap], wishes: list[Wish], inside: int) -> list[Placed]:
+    """Place the flaps: first those whose corners are all given, then the others around them."""
+    if not made:
+        return []
+    filled = np.concatenate([flap.faces for flap in made])
+    number = np.arange(len(rose.faces)) % len(rose.half.faces)
+    surface = rose.spatial[rose.faces[~np.isin(number, filled)]]
+    order = sorted(range(len(made)), key=lambda k: not wishes[k].is_given)
+    around = Surroundings.of(rose.half.order, surface)
+    found = search.arrange([(made[k].blank, wishes[k]) for k in order], around, inside)
+    return [found[order.index(k)] for k in range(len(made))]
 
 
-def _is_free(rose: Rosette, flap: _Flap) -> bool:
-    """Tell whether the flap of one wedge passes through nothing; its copies follow by symmetry."""
-    among = rose.wedge_faces(np.array(flap.faces))
-    return not len(penetrations(rose.spatial, rose.edges, rose.faces, among))
+def _check(rose: Rosette, made: list[Flap], placed: list[Placed]) -> None:
+    """Give the exact rule the last word on what the quick screen found free."""
+    for flap, each in zip(made, placed, strict=True):
+        among = rose.wedge_faces(flap.faces)
+        if len(penetrations(rose.spatial, rose.edges, rose.faces, among)):
+            t = tuple(float(value) for value in each.corners.t[0])
+            raise refusals.no_place(flap.blank, t, {}, None, 1)
 
 
-def _free_run(rose: Rosette, flap: _Flap) -> tuple[float, float] | None:
-    """Return the longest run of t in which the flap passes through nothing."""
-    low, high = flap.blank.reach()
-    step = (high - low) / SAMPLES
-    runs: list[list[float]] = [[]]
-    for k in range(SAMPLES):
-        t = low + (k + 0.5) * step
-        if _is_free(_at(rose, flap, t), flap):
-            runs[-1].append(t)
-        elif runs[-1]:
-            runs.append([])
-    longest = max(runs, key=len)
-    return (longest[0], longest[-1]) if longest else None
+def _fold(
+    rose: Rosette, made: list[Flap], sides: list[int], inside: int
+) -> tuple[Fold, dict[str, Any]]:
+    """Return the fold, and what is to be told of it: how the halves of its flaps are stacked."""
+    closed: EdgeSigns = {}
+    orders: list[list[int]] = []
+    for flap, side in zip(made, sides, strict=True):
+        closed |= flaps.closed(flap, side)
+        orders += flaps.orders(rose, flap, side * inside)
+    meta: dict[str, Any] = {"fold": {"folded": {"faceOrders": orders}}} if orders else {}
+    return rosette.fold(rose, closed, wedge_decides=not made), meta
 
 
-def _automatic(rose: Rosette, flap: _Flap) -> float:
-    run = _free_run(rose, flap)
-    if run is None:
-        low, high = flap.blank.reach()
-        raise ImpossibleGeometry(
-            f"The tuck beside point {flap.blank.point} penetrates the form wherever its corner "
-            f"lies between t = {low:.6g} and {high:.6g} mm. Move point {flap.blank.point}."
-        )
-    return sum(run) / 2
+def _report(placed: Placed, inside: int) -> list[dict[str, object]]:
+    lies = {1: "inside", -1: "outside", 0: "flush"}[placed.side * inside]
+    return [
+        {"point": i, "t": round(float(t), 6), "lies": lies}
+        for i, t in zip(placed.blank.points, placed.corners.t[0], strict=True)
+    ]
 
 
-def _given(rose: Rosette, flap: _Flap) -> float:
-    t = float(flap.tuck.t or 0.0)
-    if not _is_free(_at(rose, flap, t), flap):
-        run = _free_run(rose, flap)
-        hint = (
-            f"between {run[0]:.6g} and {run[1]:.6g} mm it is free"
-            if run
-            else f"no other t is free either, so move point {flap.blank.point}"
-        )
-        raise ImpossibleGeometry(
-            f"The tuck beside point {flap.blank.point} penetrates the form at t = {t:g} mm; {hint}."
-        )
-    return t
-
-
-def _closed(rose: Rosette, flap: _Flap) -> dict[tuple[int, int], int]:
-    """Return the sign of the creases A-t and t-B, which fold to ±180, seen from above.
-
-    Along the seam A-P_i three creases meet in one line: two of ``turning``, one of ±180. Together
-    they must turn by what the surface turns there without the tuck, which is within ±180.
-    """
-    a, b = flap.blank.ends
-    signs = []
-    for end in (a, b):
-        pair = sorted((end, flap.blank.point))
-        turning = rose.fold_angles[(rose.edge_origins == pair).all(axis=1)]
-        signs.append(-int(np.sign(turning.sum())))
-    # Where both ends agree the tuck lies on one side of the surface; else nobody can tell.
-    sign = signs[0] if signs[0] == signs[1] else 0
-    return {(a, flap.corner): sign, (b, flap.corner): sign}
-
-
-def _report(rose: Rosette, flap: _Flap, closed: dict[tuple[int, int], int]) -> dict[str, object]:
-    sign = closed[flap.blank.ends[0], flap.corner] * (-1 if rosette.is_inside_out(rose) else 1)
-    t = float(rose.half.flat[flap.corner] @ flap.blank.along)
-    side = {1: "inside", -1: "outside", 0: "undetermined"}[sign]
-    return {"point": flap.blank.point, "t": round(t, 6), "lies": side}
+def _shape(placed: Placed) -> dict[str, object]:
+    """Return what a flap's corners do not say: their sides, and what kind of blank it fills."""
+    sides = [int(side) for side in placed.corners.sides[0]]
+    return {"points": list(placed.blank.points), "sides": sides, "open": placed.blank.is_open}

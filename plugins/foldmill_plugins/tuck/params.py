@@ -8,23 +8,28 @@ from pydantic import Field
 
 from foldmill import Angle, Count, Length, Params
 from foldmill.axisymmetric.points import FreePoint, LinePoint, Points
+from foldmill_plugins.tuck.stool_points import STOOL_N8_POINTS
+
+Lies = Literal["inside", "outside"]
 
 
 class Tuck(Params):
-    """How the blank beside one free point is folded away."""
+    """How the corner t_i beside one point off its line is placed; a blank has one such corner for
+    each of its points off the line, in their order."""
 
     point: Count
-    """Number of the free point beside which the blank lies."""
+    """Number i of the point beside which the corner lies."""
     t: Length | None = None
-    """Distance of the tuck's corner from the centre; left out, the middle of the longest run of
-    places where the tuck penetrates nothing."""
-    side: Literal[-1, 1] = 1
-    """Which of two mirror images all the tucks take: 1 leans counter-clockwise seen from above."""
+    """Distance of the corner from the centre; left out, the middle of what penetrates nothing."""
+    side: Literal[-1, 1] | None = None
+    """Which of two mirror images the corner takes in space: 1 leans counter-clockwise seen from
+    above, -1 clockwise; beyond a blank's first corner, 1 is the side from which the corner before
+    and the next two points are seen counter-clockwise. Left out, whichever penetrates nothing."""
+    lies: Lies | None = None
+    """Whether the flap lies inside or outside the form; left out, whatever the shape allows."""
 
 
 def _default_points() -> dict[int, LinePoint | FreePoint]:
-    from foldmill_plugins.tuck.stools import STOOL_N8_POINTS
-
     return dict(STOOL_N8_POINTS)
 
 
@@ -39,4 +44,4 @@ class TuckParams(Params):
     """Points p_1, p_2 … outwards, odd ones on line l1, even ones on line l2; a point given by r and
     z is placed in space by hand, and leaves a blank to tuck."""
     tucks: tuple[Tuck, ...] = ()
-    """How blanks are folded away; a blank that is not named gets an automatic tuck."""
+    """How blanks are folded away; a corner that is not named is placed automatically."""

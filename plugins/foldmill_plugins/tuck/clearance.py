@@ -1,0 +1,173 @@
+"""Does a flap pass through the form? A quick screen over many flaps at once.
+
+The two halves of a flap lie upon each other, and the form maps to itself when it is turned by one
+wedge; so one half of one flap against everything else decides. The rule for two triangles is that
+of ``foldmill.check.intersection``, which has the last word on the flap that is chosen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill.tolerances import PENETRATION
+from foldmill_plugins.tuck.blanks import Blank
+from foldmill_plugins.tuck.corners import Corners
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+BLOCK = 256
+"""Flaps looked at in one go."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """Everything a flap must keep clear of, apart from its own kind."""
+
+    order: int
+    """N."""
+    triangles: Floats
+    """(F, 3, 3) mm."""
+    eps: float
+    """mm by which two triangles must pass through each other."""
+    is_mirrored: bool = True
+    """Whether all of it maps to itself in the symmetry planes; false once a flap is placed."""
+
+    @classmethod
+    def of(cls, order: int, triangles: Floats) -> Surroundings:
+        """Return a surface without flaps."""
+        eps = PENETRATION * float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
+        return cls(order, triangles, eps)
+
+    def beside(self, blank: Blank, spots: Floats) -> Surroundings:
+        """Return all this and a blank's flaps with corners (k, 3) in every wedge."""
+        flap = flap_points(blank, spots[None])[0][flap_faces(blank)]
+        turned = np.concatenate([_turned(flap, self.order, k) for k in range(self.order)])
+        triangles = np.concatenate([self.triangles, turned])
+        return replace(self, triangles=triangles, is_mirrored=False)
+
+
+def flap_faces(blank: Blank) -> Indices:
+    """Return the triangles (2k, 3) of half a flap, by the rows of ``flap_points``.
+
+    (A p_i t_i), (t_i p_i p_{i+2}), (t_i p_{i+2} t_{i+2}) … (t p B), as in thesis Fig. 4.7.
+    """
+    k, size = len(blank.points), len(blank.chain)
+    faces: list[tuple[int, int, int]] = []
+    before = 0
+    for j in range(k):
+        faces.append((before, j + 1, size + j))
+        if j + 2 < size:
+            faces.append((size + j, j + 1, j + 2))
+        before = size + j
+    return np.array(faces, np.intp)
+
+
+def flap_points(blank: Blank, spots: Floats) -> Floats:
+    """Return A, the points, B if any, and the corners (S, k, 3) in space: (S, n, 3) mm."""
+    fixed = np.broadcast_to(blank.spatial, (len(spots), *blank.spatial.shape))
+    return np.concatenate([fixed, spots], axis=1)
+
+
+def depths(blank: Blank, corners: Corners, around: Surroundings) -> Floats:
+    """Return by how much (S,) each flap passes through things, mm along their cuts; 0 is free.
+
+    A flap whose corners do not exist is infinitely deep.
+    """
+    found = np.full(len(corners.t), np.inf)
+    there = np.flatnonzero(corners.exists)
+    for start in range(0, len(there), BLOCK):
+        rows = there[start : start + BLOCK]
+        points = flap_points(blank, corners.spots[rows])
+        found[rows] = _among_others(blank, points, around) + _among_its_kind(blank, points, around)
+    return found
+
+
+def _among_others(blank: Blank, points: Floats, around: Surroundings) -> Floats:
+    """Return the depths of flaps (S, n, 3) in what surrounds them."""
+    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    is_near = (around.triangles.min(axis=1) <= high).all(axis=1)
+    is_near &= (around.triangles.max(axis=1) >= low).all(axis=1)
+    near, faces, eps = around.triangles[is_near], flap_faces(blank), around.eps
+    if not len(near):
+        return np.zeros(len(points))
+    normals, offsets = _planes(near)
+    above = points @ normals.T - offsets
+    corner_heights = above[:, faces]  # (S, m, 3, F)
+    crosses = (corner_heights.min(axis=2) < -eps) & (corner_heights.max(axis=2) > eps)
+    s, m, f = np.nonzero(crosses)
+    one = points[s[:, None], faces[m]]
+    return _summed(len(points), s, cuts(one, near[f], eps))
+
+
+def _among_its_kind(blank: Blank, points: Floats, around: Surroundings) -> Floats:
+    """Return the depths of flaps (S, n, 3) in their copies in the other wedges, and themselves."""
+    faces, count = flap_faces(blank), len(points)
+    total = np.zeros(count)
+    flaps = points[:, faces]  # (S, m, 3, 3)
+    low, high = flaps.min(axis=(1, 2)), flaps.max(axis=(1, 2))
+    for turn in range(around.order // 2 + 1):
+        other = _turned(flaps, around.order, turn)
+        meets = (other.min(axis=(1, 2)) <= high).all(axis=1)
+        meets &= (other.max(axis=(1, 2)) >= low).all(axis=1)
+        for a, b in np.ndindex(len(faces), len(faces)):
+            apart = turn or (a < b and len(set(faces[a]) & set(faces[b])) < 2)
+            if apart and meets.any():
+                rows = np.flatnonzero(meets)
+                total += _summed(count, rows, cuts(flaps[rows, a], other[rows, b], around.eps))
+    return total
+
+
+def _turned(points: Floats, order: int, turns: int) -> Floats:
+    angle = 2 * np.pi * turns / order
+    cos, sin = np.cos(angle), np.sin(angle)
+    turned: Floats = points @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return turned
+
+
+def _summed(count: int, rows: Indices, lengths: Floats) -> Floats:
+    total = np.zeros(count)
+    np.add.at(total, rows, lengths)
+    return total
+
+
+def _planes(triangles: Floats) -> tuple[Floats, Floats]:
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = normals / np.where(lengths > 0, lengths, 1.0)
+    return normals, np.einsum("ni,ni->n", normals, triangles[:, 0])
+
+
+def cuts(one: Floats, two: Floats, eps: float) -> Floats:
+    """Return along what length (n,) each pair of triangles (n, 3, 3) passes through each other."""
+    lengths = np.zeros(len(one))
+    if not len(one):
+        return lengths
+    (normal_one, offset_one), (normal_two, offset_two) = _planes(one), _planes(two)
+    height_one = np.einsum("nij,nj->ni", one, normal_two) - offset_two[:, None]
+    height_two = np.einsum("nij,nj->ni", two, normal_one) - offset_one[:, None]
+    both = np.ones(len(one), bool)
+    for height in (height_one, height_two):
+        both &= (height.min(axis=1) < -eps) & (height.max(axis=1) > eps)
+    line = np.cross(normal_one[both], normal_two[both])
+    line /= np.linalg.norm(line, axis=1, keepdims=True)
+    low_one, high_one = _span(one[both], height_one[both], line)
+    low_two, high_two = _span(two[both], height_two[both], line)
+    overlap = np.minimum(high_one, high_two) - np.maximum(low_one, low_two)
+    lengths[both] = np.where(overlap > eps, overlap, 0.0)
+    return lengths
+
+
+def _span(triangles: Floats, heights: Floats, line: Floats) -> tuple[Floats, Floats]:
+    """Return where the triangles' cut with the other plane begins and ends along ``line``."""
+    along = np.einsum("nij,nj->ni", triangles, line)
+    after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
+    crosses = (heights * after < 0) | (heights == 0)
+    share = heights / np.where(heights == after, 1.0, heights - after)
+    spots = along + share * (along_after - along)
+    low: Floats = np.where(crosses, spots, np.inf).min(axis=1)
+    high: Floats = np.where(crosses, spots, -np.inf).max(axis=1)
+    return low, high
