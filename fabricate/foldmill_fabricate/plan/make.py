@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill import Fold
+from foldmill import CreasePattern, Fold
 from foldmill.check import check
 from foldmill.exchange import fold as fold_file
-from foldmill.finding import Severity
+from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Face, Flip, Plan, Sheet
+from foldmill_fabricate.passes import Face, Flip, Plan, Sheet, Tie
 from foldmill_fabricate.plan import outline, registration, rules, scores, setups, sides
 from foldmill_fabricate.plan.figures import measure
 from foldmill_fabricate.plan.placement import lay_blank, place
@@ -24,6 +25,7 @@ from foldmill_fabricate.plan.setups import Lines
 from foldmill_fabricate.sheet import placed
 
 Floats = NDArray[np.float64]
+ByFace = dict[Face, NDArray[np.intp]]
 FlipKind = Literal["left-right", "end-over-end"]
 
 
@@ -56,26 +58,7 @@ def make(
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
     marks = _register(fold, spots, sheet, turn, material, by_face)
-    cuts, ties = outline.outer_cut(pattern, spots, material.cut)
-    all_scored = np.concatenate(list(by_face.values()))
-    stops = scores.held_back(pattern, by_face)
-    rules.refuse_short_creases(pattern, all_scored, stops, material.score.setback)
-
-    def lines(face: Face, start: Floats) -> Lines:
-        return Lines(
-            scores=scores.strokes(
-                pattern,
-                spots,
-                by_face[face],
-                stops,
-                material.score.setback,
-                material.score.repeats,
-                start,
-            ),
-            inner=outline.inner_cuts(pattern, spots, material.cut.repeats, start),
-            outer=cuts,
-        )
-
+    lines, ties = _lines(pattern, spots, by_face, material)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
@@ -91,9 +74,33 @@ def make(
         passes=passes,
         figures=measure(passes, machine, sheet, turn),
     )
-    folds = tuple(f for f in check(fold).findings if f.severity is Severity.ERROR)
-    findings = folds + marks.findings + rules.judge(pattern, spots, by_face, stops, draft)
-    return draft.model_copy(update={"findings": findings})
+    found = (*_folds(fold), *marks.findings, *rules.judge(pattern, spots, by_face, draft))
+    return draft.model_copy(update={"findings": found})
+
+
+def _lines(
+    pattern: CreasePattern, spots: Floats, by_face: ByFace, material: Material
+) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...]]:
+    """Return what gives the strokes of a face from where the tool is, and the outline's ties."""
+    cuts, ties = outline.outer_cut(pattern, spots, material.cut)
+    stops = scores.held_back(pattern, by_face)
+    score = material.score
+    rules.refuse_short_creases(pattern, by_face, stops, score.setback)
+
+    def lines(face: Face, start: Floats) -> Lines:
+        edges = by_face[face]
+        return Lines(
+            scores.strokes(pattern, spots, edges, stops, score.setback, score.repeats, start),
+            outline.inner_cuts(pattern, spots, material.cut.repeats, start),
+            cuts,
+        )
+
+    return lines, ties
+
+
+def _folds(fold: Fold) -> tuple[Finding, ...]:
+    """Return why the fold does not fold, if it does not: no sheet should be cut for it."""
+    return tuple(f for f in check(fold).findings if f.severity is Severity.ERROR)
 
 
 def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
@@ -106,7 +113,7 @@ def _register(
     sheet: Sheet,
     turn: Flip,
     material: Material,
-    by_face: dict[Face, NDArray[np.intp]],
+    by_face: ByFace,
 ) -> Registration:
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):

@@ -12,6 +12,7 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import spacing
+from foldmill_fabricate.plan.scores import held_back
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -21,10 +22,10 @@ SHORT_CREASE = 2.0
 
 
 def refuse_short_creases(
-    pattern: CreasePattern, scored: Indices, stops: set[int], setback: float
+    pattern: CreasePattern, by_face: dict[Face, Indices], stops: set[int], setback: float
 ) -> None:
     """Raise CannotPlan for a crease that its setbacks would swallow."""
-    for edge in scored.tolist():
+    for edge in np.concatenate(list(by_face.values())).tolist():
         taken = setback * sum(int(v) in stops for v in pattern.edges[edge])
         if pattern.edge_lengths[edge] <= taken:
             raise CannotPlan(
@@ -38,10 +39,10 @@ def judge(
     pattern: CreasePattern,
     spots: Floats,
     by_face: dict[Face, Indices],
-    stops: set[int],
     plan: Plan,
 ) -> tuple[Finding, ...]:
     """Return the findings of a plan; spots : (V, 2) the vertices on the sheet, mm."""
+    stops = held_back(pattern, by_face)
     return (
         *_material(plan),
         *_force(plan),

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 from collections.abc import Iterator
 from decimal import ROUND_HALF_UP, Decimal
 from itertools import pairwise
@@ -14,6 +12,7 @@ from typing import TYPE_CHECKING
 import hand_made
 import numpy as np
 import pytest
+import readers
 from ezdxf.addons.hpgl2.api import MergeControl, record_plotter_output
 from hypothesis import given
 from hypothesis import strategies as st
@@ -222,12 +221,5 @@ def test_ezdxf_reads_the_same_extent(name: str) -> None:
 
 @pytest.mark.parametrize("name", BOTH)
 def test_hp2xx_reads_the_same_extent(name: str, tmp_path: Path) -> None:
-    hp2xx = shutil.which("hp2xx")
-    if hp2xx is None:
-        pytest.skip("hp2xx is not installed")
-    (tmp_path / "p.hpgl").write_bytes(BOTH[name])
-    command = [hp2xx, "-N", "-t", "-m", "svg", "-f", "p.svg", "p.hpgl"]
-    said = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
-    found = re.search(r"range: \((\d+), (\d+)\) ... \((\d+), (\d+)\)", said.stderr)
-    assert found is not None
-    assert [int(n) for n in found.groups()] == pytest.approx(extent(BOTH[name]), abs=1)
+    found = readers.hp2xx_extent(BOTH[name], tmp_path)
+    assert found == pytest.approx(extent(BOTH[name]), abs=1)

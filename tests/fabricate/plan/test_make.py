@@ -251,7 +251,9 @@ def test_a_weak_machine_is_told_that_it_may_not_cut_through() -> None:
 
 def test_a_crease_that_its_setbacks_swallow_is_refused() -> None:
     with pytest.raises(CannotPlan, match="nothing is left to score"):
-        refuse_short_creases(square("MVMV", 1.0).pattern, np.arange(8, 12), {8, 1}, 0.75)
+        refuse_short_creases(
+            square("MVMV", 1.0).pattern, {Face.FRONT: np.arange(8, 12)}, {8, 1}, 0.75
+        )
 
 
 def test_grooves_of_both_faces_that_end_too_near_at_a_vertex_are_an_error() -> None:
