@@ -10,7 +10,7 @@ help:
 	@echo "make demo     the stool, end to end, into out/stool/"
 	@echo "make test     format, lint, types, import rules and all tests"
 	@echo "make tools    the independent readers hp2xx and LibreCAD (Debian, as root)"
-	@echo "make pictures draw the README's pictures anew"
+	@echo "make pictures draw docs/gallery.md and its pictures anew"
 	@echo "make goldens  rewrite the golden files after a wanted change"
 
 $(READY): pyproject.toml constraints.txt
@@ -38,8 +38,7 @@ goldens: $(READY)
 	$(BIN)/python -m pytest -n 0 --update-goldens $(PYTEST_ARGS)
 
 pictures: $(READY)
-	$(BIN)/python -m foldmill_fabricate design tuck --preset stool-n8 -o out/stool.fold
-	$(BIN)/python -m foldmill_fabricate show out/stool.fold -o docs/pictures/stool.png
+	$(BIN)/python examples/gallery.py docs
 
 tools:
 	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb

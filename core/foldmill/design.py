@@ -106,6 +106,8 @@ class Design(Generic[P]):
     presets: Mapping[str, P] = field(default_factory=dict)
     references: tuple[str, ...] = ()
     version: str = "1"
+    reports: Mapping[str, Callable[[P], Mapping[str, Any]]] = field(default_factory=dict)
+    """Longer analyses, made when asked for: name → function from parameters to named figures."""
 
     def schema(self) -> dict[str, Any]:
         """Return the JSON schema of the parameters, ``x-unit`` beside every physical quantity."""
@@ -148,6 +150,13 @@ class Design(Generic[P]):
             record = {"slug": self.slug, "version": self.version, "params": stated}
             meta = {"title": self.title, **fold.meta, "design": record}
             return replace(fold, meta=meta)
+
+    def report(self, name: str, params: P) -> Mapping[str, Any]:
+        """Return one of the family's reports; raises UnknownName, PluginFault."""
+        if name not in self.reports:
+            raise UnknownName.of(f"report of {self.slug}", name, self.reports)
+        with _blamed(self.slug):
+            return self.reports[name](params)
 
 
 def require_sound(design: Design[Any]) -> None:

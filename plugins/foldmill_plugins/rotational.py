@@ -9,6 +9,7 @@ from pydantic import Field
 
 from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
 from foldmill.axisymmetric import handles, rosette, strip, unfold
+from foldmill.axisymmetric.free import free_intervals
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
 from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
@@ -67,6 +68,17 @@ def _closed_signs(rose: Rosette, params: RotationalParams) -> EdgeSigns:
     return {(a, b): int(sign) for (a, b), sign in zip(pairs, signs, strict=True)}
 
 
+def free_phi(params: RotationalParams) -> dict[str, object]:
+    """Report at which opening angles the form passes through nothing, and the interval it is in."""
+    found = free_intervals(params.n, params.points)
+    own = next((span for span in found if span[0] <= params.phi <= span[1]), None)
+    return {
+        "phi_deg": params.phi,
+        "free_deg": [list(span) for span in found],
+        "own_interval_deg": list(own) if own else "none: it passes through itself",
+    }
+
+
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
 PRESETS = {
     "bowl-n8": RotationalParams(),
@@ -81,6 +93,7 @@ DESIGN = Design(
     params=RotationalParams,
     generate=generate,
     presets=PRESETS,
+    reports={"free-phi": free_phi},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
 

@@ -33,6 +33,7 @@ def add_to(app: typer.Typer) -> None:
             "help_option_names": [],
         }
     )(design)
+    app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(report)
     app.command()(show)
     app.command()(check)
 
@@ -78,6 +79,23 @@ def design(
     say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
     if has_errors(found) and not force:
         raise FoldmillError("It does not fold, so nothing is written; --force writes it, marked.")
+
+
+def report(
+    context: typer.Context,
+    family: Annotated[str, typer.Argument(help="A slug of `foldmill families`.")],
+    name: Annotated[str, typer.Argument(help="Which report; a wrong one tells those there are.")],
+    preset: Annotated[str | None, typer.Option(help="Start from a preset.")] = None,
+    params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Make one of a family's longer analyses: foldmill report FAMILY NAME [--PARAM V]…"""
+    from foldmill import installed
+    from foldmill_fabricate.cli.parameters import gather
+
+    offered = installed().design(family)
+    figures = offered.report(name, gather(offered, preset, params, context.args))
+    say(as_json, dict(figures), figure_lines(figures))
 
 
 def _marked(fold: Fold, found: Sequence[Finding]) -> Fold:

@@ -5,6 +5,7 @@ is imported inside the functions, without pyplot, so that nobody's global state 
 """
 
 from foldmill_fabricate.pictures.folded import folded_picture
+from foldmill_fabricate.pictures.gallery import gallery
 from foldmill_fabricate.pictures.motion import motion_picture
 from foldmill_fabricate.pictures.pattern import pattern_picture
 from foldmill_fabricate.pictures.pattern_svg import pattern_svg
@@ -13,6 +14,7 @@ from foldmill_fabricate.pictures.show import show_picture
 
 __all__ = [
     "folded_picture",
+    "gallery",
     "motion_picture",
     "pattern_picture",
     "pattern_svg",

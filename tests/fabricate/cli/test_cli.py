@@ -127,6 +127,7 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["simulate", "--tcp", "70000"], "Input should be less than or equal to 65535"),
         (["plan", "a.fold", "-o", "bad.fold"], "bad.fold: file exists."),
         (["design", "rotational", "-o", "bad.fold/x.fold"], "bad.fold"),
+        (["report", "rotational", "weight"], "There is no report of rotational 'weight'"),
         (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .gif or .webp"),
         (["motion", "a.fold", "--motion", "dance", "-o", "m.gif"], "There is no motion 'dance'"),
         (["motion", "a.fold", "--steps", "0", "-o", "m.gif"], "--steps must be from 1"),
@@ -145,6 +146,14 @@ def test_wrong_input_gets_one_sentence_and_leaves_nothing_behind(
     assert sentence in told.err
     assert "Traceback" not in told.err
     assert sorted(Path().iterdir()) == before
+
+
+def test_a_report_tells_where_a_form_is_free(foldmill: Run) -> None:
+    told = json.loads(foldmill("report", "rotational", "free-phi", "--phi", "100", "--json").out)
+    [low, high] = told["own_interval_deg"]
+    assert low < 100 < high
+    shut = json.loads(foldmill("report", "rotational", "free-phi", "--phi", "20", "--json").out)
+    assert shut["own_interval_deg"].startswith("none")
 
 
 def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
