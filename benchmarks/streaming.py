@@ -15,9 +15,9 @@ utilisation  time in which the line was busy, of that and the time in which it s
 payload      HP-GL among all bytes sent
 motors       time in which the machine moved, of all
 
-Where motion is the limit, ESC.B leaves some room unused: between the moment it is there and the
-moment the answer has told so lie 6-10 ms per instruction, and at most three seconds of motion are
-in flight however large the buffer is. The motors do not wait for that. A machine that is not asked
+Where motion is the limit and the buffer large, ESC.B leaves room unused on purpose: at most three
+seconds of motion are in flight, so that stopping means something. The answer's own way, 6-10 ms an
+instruction, is hidden by lending up to 16 bytes of the reserve. The motors never wait. A machine that is not asked
 at all ("none") is fed by the motion model, taken with caution, and so does wait.
 """
 

@@ -22,6 +22,9 @@ SLACK = 3.0
 """How many times longer than modelled a machine may take before it is given up."""
 CAUTION = 1.25
 """How many times longer than modelled a machine is taken to need where it cannot say."""
+LENT = 16
+"""Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
+time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
 _LONGEST_NAP = 0.25
 """s between two questions."""
 _NAP = 0.02
@@ -83,6 +86,7 @@ class Asked:
     def __init__(self, session: Session, job: Job) -> None:
         self._session, self._ledger = session, Ledger(job)
         self._reserve = reserve(session.buffer)
+        self._kept = self._reserve - min(LENT, self._reserve // 4)
         self._cover = ceil(1.5 * session.round_trip / session.byte_time)
         """Bytes that keep the line busy while an answer comes."""
         self._sent = 0
@@ -128,7 +132,7 @@ class Asked:
 
     def _fits(self, number: int) -> bool:
         length = len(self._ledger.parts[number].data)
-        return length + self._reserve <= self._bound and self._ledger.may_follow(self._done, number)
+        return length + self._kept <= self._bound and self._ledger.may_follow(self._done, number)
 
     def _following(self, number: int) -> int:
         """Return the bytes that could follow instruction ``number`` without another answer."""
