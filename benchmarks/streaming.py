@@ -17,8 +17,8 @@ motors       time in which the machine moved, of all
 
 Where motion is the limit and the buffer large, ESC.B leaves room unused on purpose: at most three
 seconds of motion are in flight, so that stopping means something. The answer's own way, 6-10 ms an
-instruction, is hidden by lending up to 16 bytes of the reserve. The motors never wait. A machine that is not asked
-at all ("none") is fed by the motion model, taken with caution, and so does wait.
+instruction, is hidden by lending up to 16 bytes of the reserve. The motors never wait. A machine
+that is not asked at all ("none") is fed by the motion model, with caution, and so does wait.
 """
 
 from __future__ import annotations
