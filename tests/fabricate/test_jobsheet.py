@@ -159,6 +159,8 @@ def test_folding_goes_from_the_middle_outward_and_closes_tucks_last() -> None:
     steps = words.folding_steps(PLAN, found)
     assert "L, M" in next(step for step in steps if step.startswith("Close the tucks last"))
     assert not any("tucks" in step for step in words.folding_steps(PLAN, found[:3]))
+    assert not any("seam" in step for step in steps)
+    assert any("Close the seam" in step for step in words.folding_steps(PLAN, found, seams=5))
 
 
 def test_a_turned_and_shifted_pattern_has_the_same_groups() -> None:

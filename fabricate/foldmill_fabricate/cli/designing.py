@@ -77,8 +77,9 @@ def design(
         save(_marked(fold, found), output)
     data = {**_summary(fold), "findings": finding_data(found)}
     say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
-    if has_errors(found) and not force:
-        raise FoldmillError("It does not fold, so nothing is written; --force writes it, marked.")
+    if output is not None and has_errors(found) and not force:
+        typer.echo("It does not fold, so nothing is written; --force writes it, marked.", err=True)
+    exit_code(found)
 
 
 def report(

@@ -77,6 +77,9 @@ def plan(
     from foldmill_fabricate import folder
     from foldmill_fabricate.plan import make
 
+    formats = [name.strip() for name in to.split(",") if name.strip()]
+    if not formats:
+        raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")
     fold = load(file)
     chosen_material, chosen_machine = presets(material, machine)
     made = make(
@@ -88,8 +91,11 @@ def plan(
         flip=flip.value,
         unassigned=None if unassigned is None else unassigned.value,
     )
-    written = folder.write(fold, made, output, [name.strip() for name in to.split(",") if name])
-    say(as_json, written.model_dump(mode="json"), describe(written))
+    written = folder.write(fold, made, output, formats)
+    programs = (
+        "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
+    )
+    say(as_json, written.model_dump(mode="json"), describe(written) + programs)
     exit_code(written.findings)
 
 

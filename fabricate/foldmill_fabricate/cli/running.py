@@ -20,7 +20,7 @@ from foldmill_fabricate.cli.output import AsJson, say
 if TYPE_CHECKING:
     from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
     from foldmill_fabricate.plotter.sender import Progress
-    from foldmill_fabricate.sending import Operator
+    from foldmill_fabricate.sending import Job, Operator
 
 
 class PassChoice(StrEnum):
@@ -64,7 +64,10 @@ def send(
 
     if draw is not None and not port.startswith("sim://"):
         raise FoldmillError("--draw shows what a sim:// plotter cut; a real one shows it itself.")
+    if draw is not None and draw.exists() and not draw.is_dir():
+        raise FoldmillError(f"--draw: {draw} is a file; name a folder for the pictures.")
     job = open_job(path, read_marks(marks))
+    _refuse_another_machine(port, job)
     faces = [Face(only.value)] if only else list(Face)
     if job.fit:
         typer.echo(f"The reverse is fitted to the marks: {job.fit}", err=as_json)
@@ -228,6 +231,19 @@ def _operator(url: str, yes: bool) -> Operator:
             "tool and turn the sheet."
         )
     return SimulatedOperator(url)
+
+
+def _refuse_another_machine(url: str, job: Job) -> None:
+    from foldmill_fabricate.plotter.simulator import devices
+
+    if not url.startswith("sim://"):
+        return
+    there, wanted = devices.behind(url).machine.slug, job.plan.machine.slug
+    if there != wanted:
+        raise FoldmillError(
+            f"This job is made for {wanted}, and {url} is {there}: plan it for that machine, or "
+            f"send it to sim://{wanted}."
+        )
 
 
 def _draw(url: str, folder: Path, aside: bool) -> None:

@@ -174,8 +174,8 @@ def temperature(plan: Plan) -> str:
     )
 
 
-def folding_steps(plan: Plan, found: list[CreaseGroup]) -> list[str]:
-    """Return the suggested order of folding, step by step."""
+def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[str]:
+    """Return the suggested order of folding, step by step; seams : vertices that are to meet."""
     flex = (
         f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
         f"a straight edge: mountains with the front outside, valleys with the reverse outside."
@@ -190,6 +190,11 @@ def folding_steps(plan: Plan, found: list[CreaseGroup]) -> list[str]:
         )
     if closing:
         steps.append(f"Close the tucks last: {', '.join(closing)}. Press them flat.")
+    if seams:
+        steps.append(
+            "Close the seam: bring its two edges together, tabs on the inside where there are any, "
+            "and glue or tape it from one end to the other."
+        )
     steps.append(
         "The sheet springs back: overfold where there is room, hold each fold for some seconds, "
         "and hold the finished form (clips, tape) until it stays."

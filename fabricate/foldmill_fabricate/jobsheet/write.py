@@ -25,7 +25,7 @@ CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
 def write(plan: Plan, fold: Fold) -> bytes:
     """Return the job sheet of a plan as PDF, two A4 pages at true scale."""
     with canvas.own_style():
-        return _to_pdf([_machine_page(plan, fold.pattern), _folding_page(plan, fold.pattern)])
+        return _to_pdf([_machine_page(plan, fold.pattern), _folding_page(plan, fold)])
 
 
 def _to_pdf(pages: list[Paper]) -> bytes:
@@ -104,7 +104,9 @@ def _add_holes(page: Paper, plan: Plan) -> None:
     page.line(words.farthest_holes(plan), 8.5)
 
 
-def _folding_page(plan: Plan, creases: CreasePattern) -> Paper:
+def _folding_page(plan: Plan, fold: Fold) -> Paper:
+    creases = fold.pattern
+    seams = 0 if fold.folded is None else len(fold.folded.seams)
     page = Paper()
     page.line(f"Folding: {plan.title}", 16, weight="bold")
     found = groups(creases)
@@ -117,7 +119,7 @@ def _folding_page(plan: Plan, creases: CreasePattern) -> Paper:
     for group in found:
         page.row(words.crease_row(group), CREASE_STOPS)
     page.heading("Suggested order of folding")
-    for number, step in enumerate(words.folding_steps(plan, found), start=1):
+    for number, step in enumerate(words.folding_steps(plan, found, seams), start=1):
         page.line(f"{number}.  {step}")
         page.y -= 0.5
     if words.findings(plan):

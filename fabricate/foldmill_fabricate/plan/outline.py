@@ -88,8 +88,8 @@ def _tie_places(rim: Floats, cut: Cut) -> list[float]:
         places.pop()  # the last one has come round to the first
     if len(places) < LEAST_TIES:
         raise CannotPlan(
-            f"The outline has room for {len(places)} ties, and a part needs {LEAST_TIES}. Use a "
-            f"material with smaller ties, or enlarge the part."
+            f"The straight edges of the outline have room for too few ties: {len(places)}, and a "
+            f"part needs {LEAST_TIES}. Enlarge the part, or leave small tabs out."
         )
     return places
 

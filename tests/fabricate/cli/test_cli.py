@@ -88,10 +88,10 @@ def test_a_form_that_penetrates_is_written_only_by_force_and_then_marked(foldmil
     points = '{"1":{"a":40},"2":{"a":90},"3":{"a":140},"4":{"a":141},"5":{"a":200},"6":{"a":201}}'
     bad = ("design", "rotational", "--n", "6", "--phi", "30", "--points", points, "-o", "bad.fold")
     told = foldmill(*bad)
-    assert told.code == 2
+    assert told.code == 1
     assert "passes through itself" in told.out
     assert not Path("bad.fold").exists()
-    assert foldmill(*bad, "--force").code == 0
+    assert foldmill(*bad, "--force").code == 1
     assert json.loads(Path("bad.fold").read_text())["foldmill:errors"] == ["penetration"]
     assert foldmill("plan", "bad.fold", "-o", "job", "--unassigned", "skip").code == 1
 
@@ -120,6 +120,7 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["plan", "a.fold", "-o", "job", "--machine", "x"], "There is no machine 'x'"),
         (["plan", "a.fold", "-o", "job", "--blank", "big"], "write WIDTHxHEIGHT in mm"),
         (["plan", "a.fold", "-o", "job", "--blank", "50x50"], "mm are missing"),
+        (["plan", "a.fold", "-o", "job", "--to", ","], "--to names no format"),
         (["plan", "a.fold", "-o", "job", "--to", "dwg"], "There is no format 'dwg'"),
         (["verify", "nowhere"], "nowhere"),
         (["send", "nowhere", "--port", "sim://generic-hpgl-600"], "nowhere"),
@@ -150,10 +151,13 @@ def test_wrong_input_gets_one_sentence_and_leaves_nothing_behind(
 
 def test_a_report_tells_where_a_form_is_free(foldmill: Run) -> None:
     told = json.loads(foldmill("report", "rotational", "free-phi", "--phi", "100", "--json").out)
-    [low, high] = told["own_interval_deg"]
-    assert low < 100 < high
+    assert told["free_at_phi"] is True
+    assert any(low < 100 < high for low, high in told["free_deg"])
     shut = json.loads(foldmill("report", "rotational", "free-phi", "--phi", "20", "--json").out)
-    assert shut["own_interval_deg"].startswith("none")
+    assert shut["free_at_phi"] is False
+    impossible = foldmill("report", "rotational", "free-phi", "--points.1.a", "5000")
+    assert impossible.code == 2
+    assert "Point 3 must lie farther out" in impossible.err
 
 
 def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
@@ -200,6 +204,24 @@ def test_a_sheet_with_valleys_only_is_loaded_with_its_reverse_up(foldmill: Run) 
     assert foldmill("send", "job", "--port", url, "--yes", "--draw", "cut").code == 0
     assert "set-up-1" not in Path("cut/front.svg").read_text()
     assert "set-up-1" in Path("cut/reverse.svg").read_text()
+
+
+def test_a_job_is_not_sent_to_a_simulator_of_another_machine(foldmill: Run) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-pens", "--yes")
+    assert told.code == 2
+    assert "is made for generic-hpgl-600" in told.err
+
+
+def test_a_folder_for_pictures_that_is_a_file_is_refused_before_anything_is_cut(
+    foldmill: Run,
+) -> None:
+    foldmill("design", "rotational", "-o", "a.fold")
+    foldmill("plan", "a.fold", "-o", "job")
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--draw", "a.fold")
+    assert told.code == 2
+    assert "executed" not in told.out
 
 
 def test_what_send_says_as_json_is_json(foldmill: Run) -> None:
