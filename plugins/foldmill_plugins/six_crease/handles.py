@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +11,6 @@ from foldmill_plugins.six_crease import solve
 from foldmill_plugins.six_crease.params import FARTHEST, SixCreaseParams
 
 Floats = NDArray[np.float64]
-Drag = Callable[[SixCreaseParams, Floats], SixCreaseParams]
 
 
 def handles(params: SixCreaseParams, meridian: Floats, mirrored: bool) -> tuple[Handle, ...]:

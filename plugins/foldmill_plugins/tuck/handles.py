@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,7 +14,6 @@ from foldmill_plugins.tuck.params import Tuck, TuckParams
 from foldmill_plugins.tuck.search import Placed
 
 Floats = NDArray[np.float64]
-Drag = Callable[[TuckParams, Floats], TuckParams]
 
 LEAST_MM = 1e-3
 """mm. The nearest that a handle brings a point to what limits it."""
