@@ -68,19 +68,33 @@ def _near_pairs(vertices: Floats, faces: Indices, wanted: Indices) -> Iterator[I
 def _crossing(vertices: Floats, faces: Indices, pairs: Indices, eps: float) -> Indices:
     if not len(pairs):
         return pairs
-    one, two = vertices[faces[pairs[:, 0]]], vertices[faces[pairs[:, 1]]]
-    normals = face_normals(vertices, faces)
-    normal_one, normal_two = normals[pairs[:, 0]], normals[pairs[:, 1]]
+    corners = vertices[faces]
+    hit: Indices = pairs[cut_lengths(corners[pairs[:, 0]], corners[pairs[:, 1]], eps) > 0]
+    return hit
+
+
+def cut_lengths(one: Floats, two: Floats, eps: float) -> Floats:
+    """Return along what length (n,) each pair of triangles penetrates, mm; 0 where it does not.
+
+    one, two : (n, 3, 3) corners, mm; eps : mm by which they must pass through each other.
+    """
+    lengths = np.zeros(len(one))
+    normal_one, normal_two = (_normals(triangles) for triangles in (one, two))
     height_two = np.einsum("nij,nj->ni", two - one[:, :1], normal_one)
     height_one = np.einsum("nij,nj->ni", one - two[:, :1], normal_two)
-    keep = _straddles(height_one, eps) & _straddles(height_two, eps)
-    line = np.cross(normal_one[keep], normal_two[keep])
+    both = _straddles(height_one, eps) & _straddles(height_two, eps)
+    line = np.cross(normal_one[both], normal_two[both])
     line /= np.linalg.norm(line, axis=1, keepdims=True)
-    low_one, high_one = _span(one[keep], height_one[keep], line)
-    low_two, high_two = _span(two[keep], height_two[keep], line)
+    low_one, high_one = _span(one[both], height_one[both], line)
+    low_two, high_two = _span(two[both], height_two[both], line)
     overlap = np.minimum(high_one, high_two) - np.maximum(low_one, low_two)
-    hit: Indices = pairs[keep][overlap > eps]
-    return hit
+    lengths[both] = np.where(overlap > eps, overlap, 0.0)
+    return lengths
+
+
+def _normals(triangles: Floats) -> Floats:
+    """Return the unit normals (n, 3) of triangles (n, 3, 3); a facet without area has none."""
+    return face_normals(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
 
 
 def _straddles(heights: Floats, eps: float) -> Flags:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.check.intersection import cut_lengths
 from foldmill.tolerances import PENETRATION
 from foldmill_plugins.tuck.blanks import Blank
 from foldmill_plugins.tuck.corners import Corners
@@ -100,7 +101,7 @@ def _among_others(blank: Blank, points: Floats, around: Surroundings) -> Floats:
     crosses = (corner_heights.min(axis=2) < -eps) & (corner_heights.max(axis=2) > eps)
     s, m, f = np.nonzero(crosses)
     one = points[s[:, None], faces[m]]
-    return _summed(len(points), s, cuts(one, near[f], eps))
+    return _summed(len(points), s, cut_lengths(one, near[f], eps))
 
 
 def _among_its_kind(blank: Blank, points: Floats, around: Surroundings) -> Floats:
@@ -117,7 +118,9 @@ def _among_its_kind(blank: Blank, points: Floats, around: Surroundings) -> Float
             apart = turn or (a < b and len(set(faces[a]) & set(faces[b])) < 2)
             if apart and meets.any():
                 rows = np.flatnonzero(meets)
-                total += _summed(count, rows, cuts(flaps[rows, a], other[rows, b], around.eps))
+                total += _summed(
+                    count, rows, cut_lengths(flaps[rows, a], other[rows, b], around.eps)
+                )
     return total
 
 
@@ -139,35 +142,3 @@ def _planes(triangles: Floats) -> tuple[Floats, Floats]:
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = normals / np.where(lengths > 0, lengths, 1.0)
     return normals, np.einsum("ni,ni->n", normals, triangles[:, 0])
-
-
-def cuts(one: Floats, two: Floats, eps: float) -> Floats:
-    """Return along what length (n,) each pair of triangles (n, 3, 3) passes through each other."""
-    lengths = np.zeros(len(one))
-    if not len(one):
-        return lengths
-    (normal_one, offset_one), (normal_two, offset_two) = _planes(one), _planes(two)
-    height_one = np.einsum("nij,nj->ni", one, normal_two) - offset_two[:, None]
-    height_two = np.einsum("nij,nj->ni", two, normal_one) - offset_one[:, None]
-    both = np.ones(len(one), bool)
-    for height in (height_one, height_two):
-        both &= (height.min(axis=1) < -eps) & (height.max(axis=1) > eps)
-    line = np.cross(normal_one[both], normal_two[both])
-    line /= np.linalg.norm(line, axis=1, keepdims=True)
-    low_one, high_one = _span(one[both], height_one[both], line)
-    low_two, high_two = _span(two[both], height_two[both], line)
-    overlap = np.minimum(high_one, high_two) - np.maximum(low_one, low_two)
-    lengths[both] = np.where(overlap > eps, overlap, 0.0)
-    return lengths
-
-
-def _span(triangles: Floats, heights: Floats, line: Floats) -> tuple[Floats, Floats]:
-    """Return where the triangles' cut with the other plane begins and ends along ``line``."""
-    along = np.einsum("nij,nj->ni", triangles, line)
-    after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
-    crosses = (heights * after < 0) | (heights == 0)
-    share = heights / np.where(heights == after, 1.0, heights - after)
-    spots = along + share * (along_after - along)
-    low: Floats = np.where(crosses, spots, np.inf).min(axis=1)
-    high: Floats = np.where(crosses, spots, -np.inf).max(axis=1)
-    return low, high
