@@ -11,10 +11,8 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from foldmill.exchange import fold as fold_file
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.folder import PATTERN, PLAN
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.marks import MarkFit, fit_marks
@@ -22,7 +20,7 @@ from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
 from foldmill_fabricate.plotter import link, sender
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.verify import Verification, verify, verify_folder
+from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
 
 
 class Operator(Protocol):
@@ -71,12 +69,16 @@ def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
     marks : where registration holes are seen after the flip, carrier coordinates in mm; the reverse
     programs are written anew to fit, and proved again.
     """
-    proof = verify_folder(path)
+    files = read_folder(path)
+    plan = files.plan
+    proof = verify_files(files)
     _refuse(proof, path)
-    plan = Plan.model_validate_json((path / PLAN).read_bytes())
     if not plan.programs:
         raise CannotSend(f"{path} holds drawings only; plan it again with --to hpgl.")
-    programs = {part.name: (path / part.name).read_bytes() for part in plan.programs}
+    unproved = [part.name for part in plan.programs if part.name not in files.programs]
+    if unproved:
+        raise CannotSend(f"{path} is not sent, for {unproved[0]} was not verified.")
+    programs = {part.name: files.programs[part.name] for part in plan.programs}
     if not marks:
         return Job(plan, programs, proof, None)
     fit = fit_marks(plan, marks)
@@ -85,8 +87,7 @@ def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
         for part in plan.programs
         if part.face is Face.REVERSE
     }
-    text = (path / PATTERN).read_text(encoding="utf-8")
-    proof = verify(plan, fold_file.read(text, PATTERN).pattern, programs, fit.fit)
+    proof = verify(plan, files.pattern, programs, fit.fit)
     _refuse(proof, path)
     return Job(plan, programs, proof, fit)
 

@@ -5,8 +5,22 @@ what pattern, process rule and placement ask for (``rule``). Mirror, placement, 
 are derived here a second time, so that a fault has to be made twice to pass unseen.
 """
 
-from foldmill_fabricate.verify.folder import verify_folder
+from foldmill_fabricate.verify.folder import (
+    JobFiles,
+    read_folder,
+    verify_files,
+    verify_folder,
+)
 from foldmill_fabricate.verify.report import report
 from foldmill_fabricate.verify.verification import Figures, Verification, verify
 
-__all__ = ["Figures", "Verification", "report", "verify", "verify_folder"]
+__all__ = [
+    "Figures",
+    "JobFiles",
+    "Verification",
+    "read_folder",
+    "report",
+    "verify",
+    "verify_files",
+    "verify_folder",
+]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -19,19 +20,39 @@ PLAN = "plan.json"
 PATTERN = "pattern.fold"
 
 
-def verify_folder(path: str | Path, fit: Fit | None = None) -> Verification:
-    """Verify ``plan.json``, ``pattern.fold`` and the ``.hpgl`` programs of a folder.
+@dataclass(frozen=True, eq=False)
+class JobFiles:
+    """A job folder as it was read once: what is proved is what is sent."""
 
-    A missing or edited program is a finding. Raises UnreadableFile where plan or pattern are
-    missing or not what their names say, for then there is nothing to compare with.
+    plan: Plan
+    pattern: CreasePattern
+    pattern_bytes: bytes
+    programs: Mapping[str, bytes]
+    """Every ``.hpgl`` file, by name."""
+
+
+def read_folder(path: str | Path) -> JobFiles:
+    """Read ``plan.json``, ``pattern.fold`` and the ``.hpgl`` programs of a folder.
+
+    Raises UnreadableFile where plan or pattern are missing or not what their names say, for then
+    there is nothing to compare with.
     """
     folder = Path(path)
     plan = _plan(folder)
     data = _bytes(folder, PATTERN)
-    pattern = _pattern(data, folder / PATTERN)
     programs = {file.name: file.read_bytes() for file in sorted(folder.glob("*.hpgl"))}
-    result = verify(plan, pattern, programs, fit)
-    if hashlib.sha256(data).hexdigest() == plan.pattern_sha256:
+    return JobFiles(plan, _pattern(data, folder / PATTERN), data, programs)
+
+
+def verify_folder(path: str | Path, fit: Fit | None = None) -> Verification:
+    """Read a folder and verify it; raises UnreadableFile as ``read_folder`` does."""
+    return verify_files(read_folder(path), fit)
+
+
+def verify_files(files: JobFiles, fit: Fit | None = None) -> Verification:
+    """Verify what was read; a missing or edited program is a finding."""
+    result = verify(files.plan, files.pattern, files.programs, fit)
+    if hashlib.sha256(files.pattern_bytes).hexdigest() == files.plan.pattern_sha256:
         return result
     edited = Finding(
         "edited",

@@ -12,7 +12,13 @@ from fabricate.verify.square_job import PENS
 
 from foldmill import Fold, UnreadableFile
 from foldmill.exchange import fold
-from foldmill_fabricate.verify import report, verify, verify_folder
+from foldmill_fabricate.verify import (
+    read_folder,
+    report,
+    verify,
+    verify_files,
+    verify_folder,
+)
 
 
 @pytest.fixture
@@ -46,6 +52,14 @@ def test_an_edited_program_is_found_by_its_hash_and_by_what_it_draws(folder: Pat
     spoilt = a_crease_is_cut_once_more(square_job.job(PENS))
     (folder / "front.hpgl").write_bytes(spoilt.programs["front.hpgl"])
     assert codes(folder) == {"edited", "repeats"}
+
+
+def test_what_is_proved_is_what_was_read_whatever_becomes_of_the_files(folder: Path) -> None:
+    files = read_folder(folder)
+    for path in folder.iterdir():
+        path.write_bytes(b"spoilt since")
+    assert verify_files(files).ok
+    assert files.programs == square_job.job(PENS).programs
 
 
 def test_a_missing_program_and_a_foreign_one_are_told(folder: Path) -> None:
