@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from domes import DOME
 
 from foldmill import Fold, ImpossibleGeometry, InvalidParameters
 from foldmill.axisymmetric import rosette, strip
@@ -25,21 +26,6 @@ LONG = SHORT | {
     "points": {k: STOOL["points"][k] for k in "12345"} | {"6": {"r": 100.0, "z": -110.0}}
 }
 """An open blank with two points off the line."""
-DOME: dict[str, Any] = {
-    "n": 7,
-    "phi": 117,
-    "points": {
-        1: {"a": 64.6},
-        2: {"a": 59.9, "branch": -1},
-        3: {"a": 110.3},
-        4: {"r": 105.7, "z": -89.6},
-        5: {"r": 120.4, "z": -77.7},
-        6: {"a": 175.3, "branch": -1},
-        7: {"a": 214.9},
-        8: {"a": 221.3},
-    },
-}
-"""A form with two blanks in each half wedge."""
 ALL = {"basket": BASKET, "automatic": BASKET | {"tucks": []}, "flush": FLUSH, "short": SHORT}
 FORMS = pytest.mark.parametrize("name", [*ALL, "long", "dome"])
 
