@@ -3,6 +3,7 @@
 This is the face for plugin authors and notebooks. Millimetres and degrees throughout.
 """
 
+from foldmill.batch import Outcome, Outcomes
 from foldmill.design import Angle, Coordinate, Count, Design, Fold, Length, Params, Symmetry
 from foldmill.errors import (
     FoldmillError,
@@ -10,6 +11,7 @@ from foldmill.errors import (
     InvalidInput,
     InvalidParameters,
     InvalidPattern,
+    NoCandidate,
     PluginFault,
     UnknownName,
     UnreadableFile,
@@ -34,6 +36,9 @@ __all__ = [
     "InvalidParameters",
     "InvalidPattern",
     "Length",
+    "NoCandidate",
+    "Outcome",
+    "Outcomes",
     "Params",
     "PluginFault",
     "Symmetry",

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from foldmill.batch import Column, Outcomes
 from foldmill.errors import (
     FoldmillError,
     InvalidParameters,
@@ -108,6 +109,10 @@ class Design(Generic[P]):
     version: str = "1"
     reports: Mapping[str, Callable[[P], Mapping[str, Any]]] = field(default_factory=dict)
     """Longer analyses, made when asked for: name → function from parameters to named figures."""
+    batch: Callable[[P, Mapping[str, Column]], Outcomes] | None = None
+    """Many configurations at once: (base, columns by dotted name) → outcomes, row by row. Where a
+    design has none, its rows are generated and checked one by one. Raises InvalidParameters where
+    it does not know a column; a row out of bounds is REFUSED, never raised."""
 
     def schema(self) -> dict[str, Any]:
         """Return the JSON schema of the parameters, ``x-unit`` beside every physical quantity."""

@@ -7,6 +7,7 @@
     │   ├── InvalidPattern               a crease pattern that is no graph of creases
     │   ├── InvalidParameters            parameters outside their bounds or contradicting each other
     │   ├── ImpossibleGeometry           parameters that are legal, but fold to nothing
+    │   │   └── NoCandidate              a point of the strip has no place in space
     │   └── UnreadableFile               a file that is not what its name says
     ├── UnknownName (LookupError)        no such family, preset, material, machine or format
     └── PluginFault (TypeError)          a plugin that breaks its contract
@@ -37,6 +38,18 @@ class InvalidParameters(InvalidInput):
 
 class ImpossibleGeometry(InvalidInput):
     """Legal parameters for which no folded form exists."""
+
+
+class NoCandidate(ImpossibleGeometry):
+    """A point of the strip that has no place in space: its circles do not meet."""
+
+    def __init__(self, message: str, point: int) -> None:
+        super().__init__(message)
+        self.point = point
+        """The number i of the point."""
+
+    def __reduce__(self) -> tuple[type[NoCandidate], tuple[str, int]]:
+        return type(self), (str(self), self.point)
 
 
 class UnreadableFile(InvalidInput):

@@ -14,6 +14,7 @@ from foldmill import errors
         (errors.InvalidPattern, ValueError),
         (errors.InvalidParameters, ValueError),
         (errors.ImpossibleGeometry, ValueError),
+        (errors.NoCandidate, ValueError),
         (errors.UnreadableFile, ValueError),
         (errors.UnknownName, LookupError),
         (errors.PluginFault, TypeError),
@@ -30,7 +31,7 @@ def test_the_tree_in_the_docstring_names_every_exception() -> None:
         for name, value in vars(errors).items()
         if isinstance(value, type) and issubclass(value, errors.FoldmillError)
     ]
-    assert len(classes) == 8
+    assert len(classes) == 9
     assert [name for name in classes if name not in (errors.__doc__ or "")] == []
 
 

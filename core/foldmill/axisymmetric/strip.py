@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill.axisymmetric.points import FreePoint, LinePoint
-from foldmill.errors import ImpossibleGeometry, InvalidParameters
+from foldmill.errors import ImpossibleGeometry, InvalidParameters, NoCandidate
 from foldmill.tolerances import COINCIDENT_MM, ON_LINE, SNAP_EPSILONS
 
 Floats = NDArray[np.float64]
@@ -181,16 +181,17 @@ def place(i: int, paper: Paper, side: Side, before: Floats, theta: float, remedy
     """Return P_i as (r, z), mm.
 
     before : (2, 2) P_{i-2} and P_{i-1}; theta : rad; remedy : what to do where it has no place.
-    Raises ImpossibleGeometry where P_i has no place, InvalidParameters where its γ is missing.
+    Raises NoCandidate where P_i has no place, InvalidParameters where its γ is missing.
     """
     s, q = _apart(before[0], before[1], theta)
     if _is_one_circle(paper, q):
         return _place_freely(i, side.gamma, before[0], paper.d)
     spot = meet(paper, side.branch, before[0], before[1], theta)
     if not np.isfinite(spot).all():
-        raise ImpossibleGeometry(
+        raise NoCandidate(
             f"Point {i} has no place: point {i - 1} is {s:.6g} mm from its plane, and only "
-            f"{paper.h:.6g} mm of paper reach there ({s - paper.h:.3g} mm too few). {remedy}"
+            f"{paper.h:.6g} mm of paper reach there ({s - paper.h:.3g} mm too few). {remedy}",
+            point=i,
         )
     return spot
 

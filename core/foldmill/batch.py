@@ -1,0 +1,60 @@
+"""Many configurations of one design at once: what becomes of each, in columns.
+
+A design may offer ``batch`` beside ``generate``: a pure function from a base model and columns of
+parameters to the outcomes of all rows. It must say of each row what generate and check would say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill.errors import InvalidInput
+
+Column = NDArray[np.float64]
+"""(n,) values of one parameter, in the unit of its field; ``points.3.b`` is a column like any."""
+NOWHERE = -1
+"""In ``Outcomes.at``: the outcome has no point of its own."""
+
+
+class Outcome(IntEnum):
+    """What becomes of one configuration."""
+
+    FREE = 0
+    """It folds, and no facet passes through another."""
+    PENETRATES = 1
+    """It folds, but facets pass through each other on one side of the axis."""
+    NO_CANDIDATE = 2
+    """A point has no place in space: its circles do not meet."""
+    CROSSES_AXIS = 3
+    """Its radii have both signs: facets meet across the axis."""
+    REFUSED = 4
+    """The design refuses it for another reason: out of bounds, a gap too short, no free place."""
+
+
+@dataclass(frozen=True, eq=False)
+class Outcomes:
+    """Outcomes of n configurations, row by row."""
+
+    codes: NDArray[np.uint8]
+    """(n,) values of Outcome."""
+    at: NDArray[np.int32]
+    """(n,) number i of the point that has no candidate; NOWHERE in all other rows."""
+    figures: Mapping[str, Column] = field(default_factory=dict)
+    """(n,) each, by names with a unit (``height_mm``); NaN where there is no folded form."""
+
+    def __post_init__(self) -> None:
+        shapes = {"at": self.at.shape} | {name: one.shape for name, one in self.figures.items()}
+        for name, shape in shapes.items():
+            if shape != self.codes.shape:
+                raise InvalidInput(
+                    f"The column {name!r} has shape {shape}, the outcomes "
+                    f"{self.codes.shape}: every column needs one value for each row."
+                )
+
+    def __len__(self) -> int:
+        return len(self.codes)
