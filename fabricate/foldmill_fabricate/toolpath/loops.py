@@ -23,7 +23,7 @@ _SEED = 20261122
 """Of the dice, so that the same strokes are always kicked alike."""
 _FEW = 6
 """Strokes, the depot among them, below which kicks have nothing to swap."""
-_STRETCH = 30
+_STRETCH = 50
 """Strokes in each of the two runs that a kick swaps, at the most."""
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.toolpath import corners as corner
-from foldmill_fabricate.toolpath import hops, tours
+from foldmill_fabricate.toolpath import hops, sequence, tours
 from foldmill_fabricate.toolpath.corners import Corners
 
 Floats = NDArray[np.float64]
@@ -47,7 +47,30 @@ def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners
     bound = links.match_hops()
     links.join_at_vertices()
     links.join_by_hops()
-    return Route(tuple(links.trails()), bound)
+    found = links.trails()
+    return Route(tuple(found if _is_in_one_piece(edges) else _sorted(points, found, start)), bound)
+
+
+def _is_in_one_piece(edges: Indices) -> bool:
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    names, at = np.unique(edges, return_inverse=True)
+    links = coo_array((np.ones(len(edges)), at.reshape(-1, 2).T), shape=(len(names),) * 2)
+    return bool(connected_components(links, directed=False)[0] == 1)
+
+
+def _sorted(
+    points: Floats, trails: list[tuple[int, ...]], start: Floats | None
+) -> list[tuple[int, ...]]:
+    """Order strokes of a drawing in several pieces as separate ones, where that is shorter."""
+    ends = np.array([points[[trail[0], trail[-1]]] for trail in trails])
+    found = min(
+        sequence.order(ends, start),
+        [(k, False) for k in range(len(trails))],
+        key=lambda way: sequence.travelled(ends, start, way, returns=False),
+    )
+    return [trails[k][::-1] if backwards else trails[k] for k, backwards in found]
 
 
 class _Links:

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
+from stools import machine
 
 from foldmill_fabricate.toolpath import corners, order
 from foldmill_fabricate.toolpath.routing import Route, route
-from stools import machine
 
 Graph = tuple[np.ndarray, np.ndarray]
 
