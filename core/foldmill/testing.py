@@ -29,6 +29,7 @@ from foldmill.finding import Severity
 from foldmill.pattern import Assignment
 from foldmill.schema import Bound, Leaf, leaves, objects, outside, placed
 
+_DOTTED = re.compile(r"[\w-]+(?:\.[\w-]+)*")
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _NOTHING: Mapping[str, str] = {}
 
@@ -183,10 +184,15 @@ def _refused(design: Design[Any], values: dict[str, Any], name: str, what: str) 
     try:
         design.validate(values)
     except InvalidParameters as error:
-        parts = iter(str(error).split(":", 1)[0].split("."))
-        _require(all(p in parts for p in name.split(".")), f"{what} is refused without its name.")
+        _require(_names(str(error), name), f"{what} is refused without its name.")
     else:
         raise AssertionError(f"{what} is accepted; it must be refused.")
+
+
+def _names(sentence: str, name: str) -> bool:
+    """Tell whether a word of the sentence is the dotted name; it may say more on the way."""
+    said = [iter(word.split(".")) for word in _DOTTED.findall(sentence)]
+    return any(all(part in parts for part in name.split(".")) for parts in said)
 
 
 def _presets(design: Design[Any]) -> None:
