@@ -54,5 +54,22 @@ SNAP_EPSILONS: Final = 64
 """Machine epsilons (times size) below which the squared half-chord of two circles is zero. Without
 the snap φ = 90 drifts by 3e-5."""
 
+SNAP_SURE: Final = (0.25, 2.0**20)
+"""Between these multiples of the snap the order of the arithmetic may decide whether a squared
+half-chord is zero, or shift a point by more than 1e-9 mm of 100; computing many forms at once asks
+one by one there. A random form is there once in 1e8."""
+
+TURN_SURE: Final = 1e-5
+"""Share of the pattern's size below which the distance D of two circles leaves the direction from
+one to the other to rounding (1e-16 of the size, over D)."""
+
+AXIS_SURE: Final = 1e-4
+"""Share of the form's size by which it must reach beyond its axis to be sure that facets penetrate
+there by more than PENETRATION: they cross at an angle of 360/N degrees at least."""
+
+SLIVER_SURE: Final = 2e-4
+"""Share of the farthest coordinate above which the heights of all facets keep their angles exact to
+ANGLE_SUM_RAD: 1e-16 of that coordinate, over the height, times the facets about a vertex."""
+
 DISH: Final = 1e-9
 """Share of the cubed size below which a form encloses no volume: a flat sheet has no outside."""

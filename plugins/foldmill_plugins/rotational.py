@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, rosette, strip, unfold
+from foldmill.axisymmetric import handles, many, many_rosettes, rosette, strip, unfold
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
@@ -101,6 +101,7 @@ DESIGN = Design(
     reports={"free-phi": free_phi},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
+DESIGN = replace(DESIGN, batch=many.batch_of(DESIGN, many_rosettes.prepare))
 
 
 @hookimpl
