@@ -19,6 +19,7 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
+from foldmill import agreement
 from foldmill.check import RULES, Report, check, penetration, symmetry
 from foldmill.check.intersection import penetrations
 from foldmill.corners import corners, numbers
@@ -64,7 +65,7 @@ def design_checks(
     """
     checks = [Check(name, partial(rule, design)) for name, rule in _RULES.items()]
     for case in ["defaults", *design.presets]:
-        for name, each in _CASE_RULES.items():
+        for name, each in (_CASE_RULES | (_BATCH_RULES if design.batch else {})).items():
             checks.append(Check(f"{name}[{case}]", partial(each, design, case)))
     unknown = sorted(set(expected_failures) - {check.name for check in checks})
     if unknown:
@@ -116,10 +117,8 @@ def _closed(design: Design[Any]) -> None:
     for name, part in objects(design.schema()):
         if "properties" in part:
             place = name or "the parameters"
-            is_closed = part.get("additionalProperties") is False
-            _require(
-                is_closed, f"{place}: derive it from Params, so that it refuses what is unknown."
-            )
+            said = f"{place}: derive it from Params, so that it refuses what is unknown."
+            _require(part.get("additionalProperties") is False, said)
 
 
 def _defaults(design: Design[Any]) -> None:
@@ -275,6 +274,10 @@ def _round_trip(design: Design[Any], case: str) -> None:
     _require(write(read(written)) == written, "Its FOLD file changes when it is read and written.")
 
 
+def _batch_agrees(design: Design[Any], case: str) -> None:
+    agreement.require(design, _params(design, case), case)
+
+
 _STRUCTURE = tuple(rule for rule in RULES if rule is not penetration)
 """A form may pass through itself at the ends of its parameters; it may not fall to pieces."""
 _RULES: dict[str, Callable[[Design[Any]], None]] = {
@@ -299,3 +302,4 @@ _CASE_RULES: dict[str, Callable[[Design[Any], str], None]] = {
     "symmetric": _symmetric,
     "fold-round-trip": _round_trip,
 }
+_BATCH_RULES = {"batch-agrees": _batch_agrees}

@@ -71,5 +71,9 @@ SLIVER_SURE: Final = 2e-4
 """Share of the farthest coordinate above which the heights of all facets keep their angles exact to
 ANGLE_SUM_RAD: 1e-16 of that coordinate, over the height, times the facets about a vertex."""
 
+FIGURE: Final = 1e-9
+"""mm, and share: how far two ways to compute one figure of a form may be apart. Rounding leaves
+1e-12 of 100 mm; no shape that differs hides below it."""
+
 DISH: Final = 1e-9
 """Share of the cubed size below which a form encloses no volume: a flat sheet has no outside."""

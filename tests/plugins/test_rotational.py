@@ -133,3 +133,12 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
 def test_wrong_parameters_are_refused_by_name(values: dict[str, Any], sentence: str) -> None:
     with pytest.raises(InvalidParameters, match=sentence):
         DESIGN.run(values)
+
+
+def test_a_direction_stated_of_the_innermost_point_waits_unused() -> None:
+    values = DESIGN.preset("bowl-n8").model_dump()
+    plain = DESIGN.run(values)
+    values["points"][1]["gamma"] = 20.0
+    turned = DESIGN.run(values)
+    assert np.array_equal(space(turned), space(plain))
+    assert [handle.name for handle in turned.handles] == [handle.name for handle in plain.handles]

@@ -33,7 +33,7 @@ def handles(fold: Fold, rose: Rosette, params: Any) -> tuple[Handle, ...]:
     for i, point in params.points.items():
         if isinstance(point, LinePoint):
             found.append(_along_line(fold, rose, i))
-            if point.gamma is not None:
+            if point.gamma is not None and i > 1:  # P_1 turns by φ
                 found.append(_turning(rose, i))
     if fold.folded is not None:
         found.append(_opening(rose))

@@ -128,13 +128,17 @@ def wheels(orders: NDArray[np.int64], is_first_on_l2: bool) -> Floats:
 
 
 def stretch(spots: Floats, spin: Floats) -> Floats:
-    """Return the box (n, 3) of all copies of points (2, n, K) as r and z; spin : rows of wheels."""
+    """Return the box (n, 3) of all copies of points (2, m, K) as r and z, mm.
+
+    spin : (k, 10) rows of wheels; n is the larger of m and k, the other may be 1.
+    """
     r, z = spots
     reach = np.stack([spin[:, [4, 5, 6]], spin[:, [7, 8, 9]]], axis=1)
     reach = reach[:, np.arange(r.shape[1]) % 2]
     most, least, side = (r * reach[:, :, j] for j in range(3))
     x = np.maximum(most, least).max(axis=1) - np.minimum(most, least).min(axis=1)
-    return np.column_stack([x, 2 * np.abs(side).max(axis=1), np.ptp(z, axis=1)])
+    sides = x, 2 * np.abs(side).max(axis=1), np.ptp(z, axis=1)
+    return np.stack(np.broadcast_arrays(*sides), axis=1)
 
 
 def judge(strips: Strips, limits: Limits | None = None) -> Verdicts:
