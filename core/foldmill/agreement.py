@@ -19,7 +19,8 @@ from foldmill.tolerances import FIGURE
 ROUNDS = 4
 """How many sets of columns are tried for each base, each of one to three parameters."""
 ROWS = 4
-"""Rows in a set. Each is generated and checked, which takes about 10 ms."""
+"""Rows in a set; each is generated and checked, which takes about 10 ms. One is at a bound of one
+of the parameters, or just beyond it."""
 
 
 def require(design: Design[Any], base: Params, seed: str) -> None:
@@ -79,7 +80,17 @@ def _samples(
     numbers = {leaf.name: leaf for leaf in leaves(design.schema(), values) if _is_varied(leaf)}
     for _ in range(ROUNDS if numbers else 0):
         names = chance.sample(sorted(numbers), min(len(numbers), chance.randint(1, 3)))
-        yield {name: _column(numbers[name], _value(values, name), chance) for name in names}
+        columns = {
+            name: np.array(
+                [_near(numbers[name], _value(values, name), chance) for _ in range(ROWS)]
+            )
+            for name in names
+        }
+        bounded = [name for name in names if numbers[name].bounds]
+        if bounded:
+            name = chance.choice(bounded)
+            columns[name][0] = _at_end(numbers[name], chance)
+        yield columns
 
 
 def _is_varied(leaf: Leaf) -> bool:
@@ -96,17 +107,16 @@ def _key(values: Mapping[Any, Any], part: str) -> Any:
     return next(key for key in values if str(key) == part)
 
 
-def _column(leaf: Leaf, value: float, chance: random.Random) -> Column:
-    return np.array([_drawn(leaf, value, chance) for _ in range(ROWS)], np.float64)
-
-
-def _drawn(leaf: Leaf, value: float, chance: random.Random) -> float:
-    """Return a number near the base's own, now and then at a bound or beyond it."""
+def _near(leaf: Leaf, value: float, chance: random.Random) -> float:
+    """Return a number near the base's own, or one of a few choices."""
     if "enum" in leaf.schema:
         return float(chance.choice(leaf.schema["enum"]))
-    if leaf.bounds and chance.random() < 0.1:
-        end = chance.choice(leaf.bounds)
-        return float(chance.choice((inside, outside))(end, leaf.is_integer))
     reach = max(abs(value) * 0.3, 5.0)
     near = value + chance.uniform(-reach, reach)
     return float(round(near)) if leaf.is_integer else near
+
+
+def _at_end(leaf: Leaf, chance: random.Random) -> float:
+    """Return the number nearest to a bound that is allowed, or that is not."""
+    end = chance.choice(leaf.bounds)
+    return float(chance.choice((inside, outside))(end, leaf.is_integer))
