@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Mapping
 from typing import Any
 
@@ -58,7 +59,7 @@ def tubes(name: str, count: int) -> list[Columns]:
 
 @pytest.mark.parametrize("name", ["candlestick", "vase", "cup", "bud"])
 def test_many_tubes_are_what_each_one_is(name: str) -> None:
-    found = [assert_true(TUBE, TUBE.preset(name), columns) for columns in tubes(name, 40)]
+    found = [assert_true(TUBE, TUBE.preset(name), columns) for columns in tubes(name, 30)]
     assert {Outcome.FREE, Outcome.NO_CANDIDATE, Outcome.CROSSES_AXIS, Outcome.REFUSED} <= seen(
         found
     )
@@ -78,7 +79,8 @@ def test_tubes_that_penetrate_on_one_side_of_the_axis_are_found() -> None:
 def bowls(name: str, count: int) -> list[Columns]:
     rng, base = np.random.default_rng(len(name)), BOWL.preset(name)
     special = rng.choice([0.0, 90.0, 180.0], count)
-    phi = np.where(rng.random(count) < 0.3, special, rng.uniform(-5, 185, count))
+    phi = np.where(rng.random(count) < 0.3, special, rng.uniform(0, 180, count))
+    phi[:2] = -1.0, 181.0
     places = {f"points.{i}.a": base.points[i].a + rng.uniform(-15, 15, count) for i in (1, 3, 4)}
     signs = {f"points.{i}.branch": rng.choice([-1.0, 1.0], count) for i in base.points}
     return [{"phi": phi}, {**places, "phi": phi}, {**signs, "n": rng.integers(2, 20, count) + 0.0}]
@@ -86,7 +88,7 @@ def bowls(name: str, count: int) -> list[Columns]:
 
 @pytest.mark.parametrize("name", BOWL.presets)
 def test_many_bowls_are_what_each_one_is(name: str) -> None:
-    found = [assert_true(BOWL, BOWL.preset(name), columns) for columns in bowls(name, 35)]
+    found = [assert_true(BOWL, BOWL.preset(name), columns) for columns in bowls(name, 25)]
     assert {Outcome.FREE, Outcome.PENETRATES, Outcome.CROSSES_AXIS, Outcome.REFUSED} <= seen(found)
 
 
@@ -155,6 +157,13 @@ def test_a_column_of_no_parameter_is_refused(design: Design[Any], name: str) -> 
     assert design.batch is not None
     with pytest.raises(InvalidParameters, match="There is no parameter"):
         design.batch(design.params(), {name: np.zeros(3)})
+
+
+@pytest.mark.parametrize("design", [TUBE, BOWL])
+def test_a_batch_travels_to_other_processes(design: Design[Any]) -> None:
+    columns = {"phi": np.array([30.0, 60.0, 200.0])}
+    carried = pickle.loads(pickle.dumps(design.batch))
+    assert_alike(carried(design.params(), columns), outcomes(design, design.params(), columns))
 
 
 def test_no_rows_are_no_outcomes() -> None:

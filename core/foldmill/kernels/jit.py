@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import cache
 from importlib import import_module
-from importlib.util import find_spec
 from typing import Any, TypeVar
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -19,8 +19,17 @@ SWITCH = "FOLDMILL_NO_JIT"
 
 
 def is_compiling() -> bool:
-    """Tell whether kernels are compiled: numba is installed, and nobody has switched it off."""
-    return os.environ.get(SWITCH, "0") in {"", "0"} and find_spec("numba") is not None
+    """Tell whether kernels are compiled: numba is there, and nobody has switched it off."""
+    return os.environ.get(SWITCH, "0") in {"", "0"} and _numba() is not None
+
+
+@cache
+def _numba() -> Any:
+    """Return numba, or None where it is not installed or does not work with this NumPy."""
+    try:
+        return import_module("numba")
+    except ImportError:
+        return None
 
 
 def jit(function: F) -> F:
@@ -31,11 +40,10 @@ def jit(function: F) -> F:
     """
     if not is_compiling():
         return function
-    numba: Any = import_module("numba")
     # No fastmath: NaN and the order of sums must mean what they mean without a compiler.
     options = {"fastmath": False, "nogil": True, "error_model": "numpy"}
     try:
-        compiled: F = numba.njit(cache=True, **options)(function)
+        compiled: F = _numba().njit(cache=True, **options)(function)
     except RuntimeError:  # numba finds no folder to keep it in
-        compiled = numba.njit(**options)(function)
+        compiled = _numba().njit(**options)(function)
     return compiled

@@ -154,7 +154,7 @@ def test_where_facets_touch_or_meet_along_a_crease_the_kernels_say_what_the_chec
     spin = wheels(np.array([6]), is_first_on_l2=False)[0]
     faces = np.array([(k, k + 1, k + 2) if k % 2 else (k, k + 2, k + 1) for k in range(5)])
     edges = np.array([(i, j) for i in range(7) for j in (i + 1, i + 2) if j < 7])
-    every, verdicts, only_sliding = grid_strips(1500, 9), [], 0
+    every, verdicts, only_sliding = grid_strips(800, 9), [], 0
     sizes = np.array([np.ptp(in_space(spots, spin), axis=0).max() for spots in every])
     for spots, size in zip(every, sizes, strict=True):
         crosses, slides = by_loop(ready, spots, spin, size)
@@ -162,7 +162,7 @@ def test_where_facets_touch_or_meet_along_a_crease_the_kernels_say_what_the_chec
         assert bool(len(truth)) == (crosses or slides), spots
         verdicts.append(crosses or slides)
         only_sliding += slides and not crosses
-    assert 100 < sum(verdicts) < len(verdicts) - 100
+    assert 50 < sum(verdicts) < len(verdicts) - 50
     assert only_sliding > 3
     spins, moved = spin[None], np.moveaxis(every, 2, 0)
     codes = columns._verdicts(moved, spins, Limits().as_row(), sizes)
