@@ -15,9 +15,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, get_args
-
-from pydantic import BaseModel
+from typing import Any
 
 from foldmill import agreement
 from foldmill.check import RULES, Report, check, penetration, symmetry
@@ -28,7 +26,7 @@ from foldmill.errors import FoldmillError, InvalidParameters, PluginFault, one_l
 from foldmill.exchange.fold import read, write
 from foldmill.finding import Severity
 from foldmill.pattern import Assignment
-from foldmill.schema import Bound, Leaf, leaves, objects, outside, placed
+from foldmill.schema import Bound, Leaf, leaves, models, objects, outside, placed
 
 _DOTTED = re.compile(r"[\w-]+(?:\.[\w-]+)*")
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -146,7 +144,7 @@ def _bounds_kept(design: Design[Any]) -> None:
 
 def _bounds_hold(design: Design[Any]) -> None:
     """Of two bounds of one sort, a quantity's and a field's, pydantic keeps the quantity's."""
-    for model in _models(design.params):
+    for model in models(design.params):
         for name, field in model.model_fields.items():
             for sort, tightest in (("ge", max), ("gt", max), ("le", min), ("lt", min)):
                 stated = [getattr(each, sort, None) for each in field.metadata]
@@ -155,16 +153,6 @@ def _bounds_hold(design: Design[Any]) -> None:
                     f"{model.__name__}.{name}: {sort}={values} contradict, and only the last holds."
                 )
                 _require(not values or values[-1] == tightest(values), said)
-
-
-def _models(kind: Any) -> Iterator[type[BaseModel]]:
-    """Yield the parameter models in a type, the type itself and those of its fields included."""
-    if isinstance(kind, type) and issubclass(kind, BaseModel):
-        yield kind
-        for field in kind.model_fields.values():
-            yield from _models(field.annotation)
-    for part in get_args(kind):
-        yield from _models(part)
 
 
 def _out_of_bounds(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf, Bound]]:
