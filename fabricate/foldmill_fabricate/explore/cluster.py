@@ -23,9 +23,21 @@ Versions = Mapping[str, str]
 VERSIONED = ("foldmill", "numpy")
 """Distributions that must be the same everywhere, so that the results are."""
 ABSENT = "absent"
-LOST_S = 30.0
-"""A cluster without any worker for so long has lost them; one that restarts them is back sooner."""
 LOOK_S = 0.5
+
+
+def backend(client: Any) -> Any:
+    """Return joblib's way to a cluster, which sends the work even where one worker is all there is.
+
+    joblib itself would then do it in this process, and a cluster that grows would never be used.
+    """
+    from joblib._dask import DaskDistributedBackend
+
+    class Sending(DaskDistributedBackend):  # type: ignore[misc]
+        def effective_n_jobs(self, n_jobs: int) -> int:
+            return max(2, int(super().effective_n_jobs(n_jobs)))
+
+    return Sending(client=client)
 
 
 @contextmanager
@@ -138,9 +150,10 @@ def watched(results: Iterator[R], client: Any, engine: Cluster) -> Iterator[R]:
             kind, value = done.get(timeout=LOOK_S)
         except queue.Empty:
             without = 0.0 if _has_workers(client) else without + LOOK_S
-            if without >= LOST_S:
+            if without >= engine.patience_s:
                 raise EngineFailed(
-                    f"The cluster at {engine.address} has had no worker for {LOST_S:g} s."
+                    f"The cluster at {engine.address} has had no worker for "
+                    f"{engine.patience_s:g} s."
                 ) from None
             continue
         without = 0.0

@@ -5,6 +5,7 @@ joblib is the only way in; what a sweep gives does not depend on the engine.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager
@@ -38,7 +39,14 @@ class Cluster:
     address: str
     """Of the scheduler: ``tcp://host:8786`` or ``tls://host:8786``."""
     patience_s: float = 10.0
-    """How long to wait for the scheduler and for its first worker."""
+    """How long to wait for the scheduler, for its first worker, and for one when all are lost."""
+
+    def __post_init__(self) -> None:
+        if not re.fullmatch(r"(tcp|tls)://(\[[0-9a-fA-F:.]+\]|[\w.-]+):\d{1,5}", self.address):
+            raise CannotExplore(
+                f"{self.address!r} is no address of a Dask scheduler; write tcp://HOST:PORT, such "
+                "as tcp://127.0.0.1:8786."
+            )
 
 
 Engine = Local | Cluster
@@ -58,20 +66,20 @@ def run(
         with _told("a process that computes"):
             yield from _parallel(work, wanted, backend="loky", n_jobs=jobs)
         return
-    from foldmill_fabricate.explore.cluster import connected, watched
+    from foldmill_fabricate.explore.cluster import backend, connected, watched
 
     with connected(engine, packages) as client, _told(f"the cluster at {engine.address}"):
-        results = _parallel(work, wanted, backend="dask", n_jobs=-1, client=client)
+        results = _parallel(work, wanted, backend=backend(client), n_jobs=-1)
         yield from watched(results, client, engine)
 
 
 def _parallel(
-    work: Callable[[int], R], numbers: list[int], backend: str, n_jobs: int, **options: Any
+    work: Callable[[int], R], numbers: list[int], backend: Any, n_jobs: int
 ) -> Iterator[R]:
     import joblib
 
     one_thread = {"inner_max_num_threads": 1} if backend == "loky" and n_jobs != 1 else {}
-    with joblib.parallel_config(backend=backend, n_jobs=n_jobs, **one_thread, **options):
+    with joblib.parallel_config(backend=backend, n_jobs=n_jobs, **one_thread):
         together = joblib.Parallel(return_as="generator_unordered", batch_size=1)
         yield from together(joblib.delayed(work)(number) for number in numbers)
 

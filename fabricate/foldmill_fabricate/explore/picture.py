@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".png", ".svg")
 ABOVE_LINES = 5
 """In the order of drawing."""
-PIXELS = 420
+PIXELS = 280
 """Of a form beside the map."""
 Box = tuple[float, float, float, float]
 

@@ -132,9 +132,12 @@ def _chunks(task: Task, engine: Engine, store: Store | None, progress: Progress)
 
 
 def packages(design: Design[Any]) -> tuple[str, ...]:
-    """Return the packages that a worker needs for a family, other than numpy."""
-    own = {design.generate.__module__, design.params.__module__}
-    tops = {module.partition(".")[0] for module in own} - {"__main__"}
+    """Return the packages that a worker needs for a family, other than numpy.
+
+    What is made inside a function or a notebook travels whole and needs none.
+    """
+    own = [each for each in (design.generate, design.params) if "<locals>" not in each.__qualname__]
+    tops = {each.__module__.partition(".")[0] for each in own} - {"__main__"}
     return ("foldmill", "foldmill_fabricate", *sorted(tops))
 
 
