@@ -119,28 +119,24 @@ def _require_files(output: Path | None, picture: Path | None, picks: Sequence[Pi
             raise CannotExplore(f"{pick.file}: a pick is written as {' '.join(PICKED)}.")
 
 
-def _engine(jobs: int | None, scheduler: str | None) -> Engine:
+def _engine(jobs: int | None, scheduler: str | None) -> Engine | None:
     from foldmill_fabricate.explore import Cluster, Local
 
     if scheduler is None:
-        return Local() if jobs is None else Local(jobs)
+        return None if jobs is None else Local(jobs)
     if jobs is not None:
         raise CannotExplore("--jobs counts processes here; with --scheduler the cluster has its.")
     return Cluster(scheduler)
 
 
-def _place(engine: Engine) -> str:
+def _place(engine: Engine | None) -> str:
     from foldmill_fabricate.explore import Local
 
+    if engine is None:
+        return "on this machine"
     if not isinstance(engine, Local):
         return f"on the cluster at {engine.address}"
-    return (
-        "on all cores"
-        if engine.jobs == -1
-        else "in one process"
-        if engine.jobs == 1
-        else f"in {engine.jobs} processes"
-    )
+    return "in one process" if engine.jobs == 1 else f"in {engine.jobs} processes"
 
 
 def _row(sweep: Sweep[Any], which: str) -> int:

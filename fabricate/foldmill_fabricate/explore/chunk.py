@@ -21,11 +21,13 @@ from foldmill_fabricate.explore.grid import Grid
 
 FAULT = 255
 """In the codes of a sweep, beside those of Outcome: the family broke down at this row."""
-BATCH_ROWS = 65_536
-"""A compiled batch does some 3.6 million rows a second, an uncompiled one less: 20 ms and more."""
+BATCH_ROWS = 262_144
+"""A compiled batch does some 3 million rows a second, an uncompiled one less: 80 ms and more."""
 ROWS, MOST_ROWS = 16, 256
 """Generating and checking takes some 10 ms a row: a chunk is 0.2 to 3 s, many chunks large ones."""
 WANTED_CHUNKS = 1000
+SHORT_CHUNKS = 8
+"""Of a batch: about a second's work, and processes take more than that to start."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +64,11 @@ class Task:
     def chunks(self) -> int:
         """How many chunks there are."""
         return -(-len(self.grid) // self.chunk_rows)
+
+    @property
+    def is_short(self) -> bool:
+        """Whether it is done before other processes would have started."""
+        return self.chunks == 1 or (self.design.batch is not None and self.chunks <= SHORT_CHUNKS)
 
     def rows(self, number: int) -> NDArray[np.intp]:
         """Return the rows of a chunk."""

@@ -88,14 +88,15 @@ def explore(
 ) -> Sweep[P]:
     """Compute what becomes of a design over all combinations of values of some parameters.
 
-    base : the parameters that are not varied; engine : all cores of this machine if not given;
-    at_most : rows; resume : a folder that keeps finished chunks, and gives back those it has.
-    The result does not depend on the engine. Raises CannotExplore, InvalidParameters, EngineFailed.
+    base : the parameters that are not varied; engine : if not given, all cores of this machine, or
+    one where that is sooner; at_most : rows; resume : a folder that keeps finished chunks, and
+    gives back those it has. The result does not depend on the engine.
+
+    Raises CannotExplore, InvalidParameters, EngineFailed.
     """
     task = Task(design, base, grid(design, base, ranges, at_most))
-    chunks = _chunks(
-        task, engine or Local(), Store(resume, task) if resume else None, progress or _untold
-    )
+    engine = engine or Local(1 if task.is_short else -1)
+    chunks = _chunks(task, engine, Store(resume, task) if resume else None, progress or _untold)
     found = Outcomes(
         np.concatenate([chunk.codes for chunk in chunks]),
         np.concatenate([chunk.at for chunk in chunks]),

@@ -115,3 +115,16 @@ def test_the_help_of_the_program_stays_quick() -> None:
     slow = ("scipy", "matplotlib", "joblib", "distributed", "pyarrow", "rich.progress")
     run = subprocess.run([sys.executable, "-c", code % (slow,)], capture_output=True, text=True)
     assert run.stdout.strip() == "[]"
+
+
+def commands() -> list[list[str]]:
+    page = Path(__file__).parents[3] / "docs" / "explore.md"
+    lines = [line.strip() for line in page.read_text("utf-8").splitlines()]
+    return [line.split()[1:] for line in lines if line.startswith("foldmill explore ")]
+
+
+@pytest.mark.parametrize("words", commands())
+def test_every_command_of_the_page_is_understood(foldmill: Run, words: list[str]) -> None:
+    told = foldmill(*words, "--at-most", "0")
+    assert told.code == 2
+    assert "rows, more than 0" in told.err

@@ -47,7 +47,7 @@ def test_each_row_is_what_generating_and_checking_it_says() -> None:
 
 
 def test_processes_of_this_machine_give_the_bytes_that_one_gives() -> None:
-    asked = ranges("phi=60:100:2.5", "points.4.a=95,100")
+    asked = ranges("phi=60:100:5", "points.4.a=95,100")
     base = BOWL.preset("bowl-n8")
     assert csv(explore(BOWL, base, asked, Local(2))) == csv(explore(BOWL, base, asked, SERIAL))
 
