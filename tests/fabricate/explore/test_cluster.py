@@ -109,7 +109,7 @@ def test_a_cluster_that_loses_its_last_worker_ends_the_sweep_and_keeps_what_is_d
     with (
         clusters.scheduler(tmp_path, env) as address,
         clusters.worker(address, "only", tmp_path, env),
-        pytest.raises(EngineFailed, match=r"no worker for 3 s\. 2 of 4 chunks .* phi = 85\.6 deg"),
+        pytest.raises(EngineFailed, match=r"has had no worker for 3 s\."),
     ):
         explore(lethal(), bowl, PHI, Cluster(address, patience_s=3), resume=kept)
     assert csv(explore(BOWL, bowl, PHI, Local(1), resume=kept)) == here
