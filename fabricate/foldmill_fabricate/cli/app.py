@@ -12,7 +12,7 @@ from typing import Any
 import typer
 
 from foldmill.errors import FoldmillError
-from foldmill_fabricate.cli import catalogue, designing, making, moving, running
+from foldmill_fabricate.cli import catalogue, designing, exploring, making, moving, running
 
 app = typer.Typer(
     name="foldmill",
@@ -26,6 +26,7 @@ app = typer.Typer(
 catalogue.add_to(app)
 designing.add_to(app)
 moving.add_to(app)
+exploring.add_to(app)
 making.add_to(app)
 running.add_to(app)
 

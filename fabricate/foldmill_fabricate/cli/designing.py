@@ -74,7 +74,7 @@ def design(
     fold = offered.run(gather(offered, preset, params, context.args))
     found = check_fold(fold).findings
     if output is not None and (force or not has_errors(found)):
-        save(_marked(fold, found), output)
+        save(marked(fold, found), output)
     data = {**_summary(fold), "findings": finding_data(found)}
     say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
     if output is not None and has_errors(found) and not force:
@@ -99,7 +99,7 @@ def report(
     say(as_json, dict(figures), figure_lines(figures))
 
 
-def _marked(fold: Fold, found: Sequence[Finding]) -> Fold:
+def marked(fold: Fold, found: Sequence[Finding]) -> Fold:
     """Put the codes of its errors into the fold, so that the file says what it is."""
     codes = sorted({finding.code for finding in found if finding.severity is Severity.ERROR})
     if not codes:
