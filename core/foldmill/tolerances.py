@@ -26,6 +26,10 @@ ANGLE_SUM_READ_RAD: Final = 1e-5
 """rad. As ANGLE_SUM_RAD, for a form read from a file. Coordinates of four decimals (0.1 µm) spread
 over facets of a centimetre turn their angles by so much (measured: 8e-6); a hand cannot fold it."""
 
+KAWASAKI_DEG: Final = 1e-3
+"""deg. By how much every other sector angle at a vertex that folds flat may sum to another value
+than 180. Solved patterns reach 1e-12; a hand cannot fold a thousandth."""
+
 ISOMETRY_READ: Final = 1e-6
 """As ISOMETRY, for a form read from a file: four decimals of a sheet of 100 mm (measured: 5e-7)."""
 

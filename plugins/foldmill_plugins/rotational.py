@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from pydantic import Field
 
 from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, rosette, strip, unfold
+from foldmill.axisymmetric import closing, handles, rosette, strip, unfold
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
@@ -82,6 +83,19 @@ def free_phi(params: RotationalParams) -> dict[str, object]:
     }
 
 
+def flat_foldability(params: RotationalParams) -> dict[str, object]:
+    """Report whether the form, cut along p_0-p_2-p_4-…, folds flat along the arc.
+
+    Raises InvalidParameters and ImpossibleGeometry as ``generate`` does.
+    """
+    solved = strip.solve(params.n, params.phi, dict(params.points))
+    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    branches = {i: point.branch for i, point in params.points.items() if i >= 2}
+    places = partial(closing.along_arc, solved, branches)
+    front = -1 if rosette.is_inside_out(rose) else 1
+    return closing.report(closing.Closing(rose, branches, places, 0, front))
+
+
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
 # The lampshade's 24 creases in one point want a thinner material than half-cut 0.75 mm
 # polypropylene: its grooves would end 0.196 mm apart there, and a plan says so.
@@ -98,7 +112,7 @@ DESIGN = Design(
     params=RotationalParams,
     generate=generate,
     presets=PRESETS,
-    reports={"free-phi": free_phi},
+    reports={"flat-foldability": flat_foldability, "free-phi": free_phi},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from foldmill import Design, hookimpl
 from foldmill_plugins.six_crease.generate import generate
 from foldmill_plugins.six_crease.params import SixCreaseParams
+from foldmill_plugins.six_crease.reports import REPORTS
 from foldmill_plugins.six_crease.shapes import SHAPES
 
 DESIGN = Design(
@@ -13,6 +14,7 @@ DESIGN = Design(
     params=SixCreaseParams,
     generate=generate,
     presets=SHAPES,
+    reports=REPORTS,
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 5",),
 )
 

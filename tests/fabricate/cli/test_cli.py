@@ -160,6 +160,19 @@ def test_a_report_tells_where_a_form_is_free(foldmill: Run) -> None:
     assert "Point 3 must lie farther out" in impossible.err
 
 
+def test_a_report_with_rows_is_a_table_for_people_and_a_list_for_machines(foldmill: Run) -> None:
+    words = ("report", "six-crease", "flat-foldability", "--preset", "cup")
+    told = foldmill(*words)
+    assert told.code == 0
+    head, *rows = told.out.split("\n\n")[1].splitlines()
+    assert head.split() == "point folded flat kawasaki deg M minus V verdict".split()
+    assert [row.split()[0] for row in rows] == ["3", "4", "5", "6", "7"]
+    points = json.loads(foldmill(*words, "--json").out)["points"]
+    assert [point["M_minus_V"] for point in points] == [2, -2, 2, -2, 2]
+    freedoms = json.loads(foldmill("report", "six-crease", "freedoms", "--json").out)
+    assert (freedoms["freedoms_open_sheet"], freedoms["freedoms_glued_tube"]) == (43, 34)
+
+
 def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
     assert foldmill("motion", "rotational", "--phi", "70", "--steps", "4", "-o", "m.fold").code == 0
     told = json.loads(Path("m.fold").read_text())
