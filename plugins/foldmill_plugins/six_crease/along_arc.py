@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from foldmill.axisymmetric.tabs import Tabs
 from foldmill.axisymmetric.tube import Tube, in_space
-from foldmill.motion import Motion
+from foldmill.motion import Measure, Motion
 from foldmill.tolerances import ON_LINE
 from foldmill_plugins.six_crease import solve
 from foldmill_plugins.six_crease.params import SixCreaseParams
@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 
 SAMPLES = 200
 """Places at which the way is looked at: half a percent of the folding rate apart."""
+FOLDING_RATE = Measure("folding rate FR", "%", 0.0, 100.0)
+"""Eq. 5.8: even with t, as Θ' is."""
 ROUNDS = 4
 """How often the step before the first fault is divided by SAMPLES again."""
 
@@ -39,7 +41,8 @@ def along_arc(params: SixCreaseParams, whole: Tube, glued: Tabs | None) -> Motio
         places = whole.turned(in_space(solve.meridian(params, theta), theta), theta)
         return glued.carry(places) if glued else places
 
-    return Motion("along-arc", "Fold flat along the arc, the seam open", path, reach, reason)
+    title = "Fold flat along the arc, the seam open"
+    return Motion("along-arc", title, path, reach, reason, FOLDING_RATE)
 
 
 def folding_rate(params: SixCreaseParams, theta: float) -> float:
