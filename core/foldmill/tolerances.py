@@ -15,6 +15,10 @@ NEARLY_CLOSED_DEG: Final = 1e-2
 """deg. How far φ is opened from 0 or 180 to see to which side a crease closes. A hundred times
 CLOSED_DEG, so that the sign is no noise there; so little that no other crease changes its own."""
 
+OFF_AXIS: Final = 1e-5
+"""Share of the form's size by which a point on the axis is drawn out to see to which side a crease
+closes. Five times what CLOSED_DEG is in rad, as the facet is never higher than the form."""
+
 ANGLE_SUM_RAD: Final = 1e-11
 """rad. Largest deviation of an interior vertex's angle sum from 2π (solved patterns: 1e-14)."""
 

@@ -88,7 +88,7 @@ def _angles(fold: Fold, moving: Motion, vertex: int, steps: int, file: Path, as_
     angles = dihedral_angles(fold, moving, vertex, np.linspace(0.0, moving.reach, steps + 1))
     if not angles.names:
         raise FoldmillError(
-            f"Vertex {vertex} has no crease, only edges of the outline; take a vertex inside."
+            f"Vertex {vertex} has no crease, only edges of the outline; take one inside."
         )
     as_table = suffix == ".csv"
     written = dihedral_csv(angles, moving).encode() if as_table else b""

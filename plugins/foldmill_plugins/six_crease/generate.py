@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foldmill import Fold, Symmetry
-from foldmill.axisymmetric import tabs, tube
+from foldmill.axisymmetric import closed, tabs, tube
 from foldmill.axisymmetric.tabs import Tabs
-from foldmill.axisymmetric.tube import Sheet
+from foldmill.axisymmetric.tube import Sheet, Tube
 from foldmill.motion import Motion
 from foldmill_plugins.six_crease import freedoms, solve
 from foldmill_plugins.six_crease.along_arc import along_arc
@@ -24,7 +25,7 @@ def generate(params: SixCreaseParams) -> Fold:
     whole = tube.assemble(half)
     glued = tabs.add(Sheet.of(whole), params.tab, params.taper) if params.tab else None
     sheet = glued.sheet if glued else Sheet.of(whole)
-    pattern, form = sheet.finish()
+    pattern, form = sheet.finish(_closed_signs(whole))
     motion = along_arc(params, whole, glued)
     # Tabs are on one seam only, so that a form with tabs is not the same when it is turned.
     symmetry = Symmetry(params.n, np.arange(len(half.faces)), half.one_sided)
@@ -36,6 +37,12 @@ def generate(params: SixCreaseParams) -> Fold:
         handles(params, places, sheet.is_inside_out),
         _facts(params, motion, glued),
     )
+
+
+def _closed_signs(whole: Tube) -> NDArray[np.intp]:
+    """Return the signs of the tube's edges that close to ±180 as a point reaches the axis."""
+    stated = closed.off_axis(whole)
+    return np.array([stated.get((int(a), int(b)), 0) for a, b in whole.edge_origins], np.intp)
 
 
 def _facts(params: SixCreaseParams, motion: Motion, glued: Tabs | None) -> dict[str, Any]:
