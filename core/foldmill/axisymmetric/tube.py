@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,3 +117,14 @@ class Sheet:
             flat, faces, signs = flat * np.array([-1.0, 1.0]), faces[:, ::-1], -signs
         pattern, form = fold_pattern(flat, self.spatial, self.edges, faces, signs)
         return pattern, replace(form, seams=self.seams)
+
+
+class Glued(Protocol):
+    """A sheet with paper along its seam that closes the tube: tabs, or an overlap."""
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet with that paper; old vertices keep their numbers."""
+
+    def carry(self, spatial: Floats) -> Floats:
+        """Return old vertices (V, 3) of a form on its way, followed by the new ones."""

@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.axisymmetric.tabs import Tabs
-from foldmill.axisymmetric.tube import Tube, in_space
+from foldmill.axisymmetric.tube import Glued, Tube, in_space
 from foldmill.motion import Measure, Motion
 from foldmill.tolerances import ON_LINE
 from foldmill_plugins.six_crease import solve
@@ -26,10 +25,10 @@ ROUNDS = 4
 """How often the step before the first fault is divided by SAMPLES again."""
 
 
-def along_arc(params: SixCreaseParams, whole: Tube, glued: Tabs | None) -> Motion:
+def along_arc(params: SixCreaseParams, whole: Tube, glued: Glued | None) -> Motion:
     """Return the motion, and how far it goes: to where a point has no place or is on the axis.
 
-    glued : the tabs of the sheet, which stay rigid with the facets that hold them.
+    glued : the sheet with its tabs or its overlap, which knows how they move along.
     """
     start = glued.sheet.spatial if glued else whole.spatial
     reach, reason = find_reach(params)
