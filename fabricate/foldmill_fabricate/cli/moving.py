@@ -29,7 +29,8 @@ def motion(
         typer.Option(
             "-o",
             "--output",
-            help="FILE.fold (frames), .gif or .webp; by suffix. With --dihedral .csv .png or .svg.",
+            help="FILE.fold (frames), .glb (morph targets), .gif or .webp; by suffix. "
+            "With --dihedral .csv .png or .svg.",
         ),
     ],
     preset: Annotated[str | None, typer.Option(help="Start from a preset of the family.")] = None,
@@ -127,6 +128,7 @@ def _motion(fold: Fold, name: str | None) -> Motion:
 
 def _bytes(fold: Fold, moving: Motion, steps: int, file: Path) -> bytes:
     from foldmill.exchange import fold as fold_file
+    from foldmill.exchange.glb import write_motion
     from foldmill.exchange.motion import with_frames
     from foldmill_fabricate.pictures import motion_picture
 
@@ -135,4 +137,6 @@ def _bytes(fold: Fold, moving: Motion, steps: int, file: Path) -> bytes:
         return fold_file.write(with_frames(fold, moving, steps)).encode()
     if suffix in {".gif", ".webp"}:
         return motion_picture(fold, moving, steps, suffix)
-    raise FoldmillError(f"{file}: a motion is written as .fold .gif or .webp.")
+    if suffix == ".glb":
+        return write_motion(fold, moving, steps)
+    raise FoldmillError(f"{file}: a motion is written as .fold .glb .gif or .webp.")

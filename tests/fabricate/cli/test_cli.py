@@ -129,7 +129,7 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["plan", "a.fold", "-o", "bad.fold"], "bad.fold: file exists."),
         (["design", "rotational", "-o", "bad.fold/x.fold"], "bad.fold"),
         (["report", "rotational", "weight"], "There is no report of rotational 'weight'"),
-        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .gif or .webp"),
+        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .glb .gif or .webp"),
         (["motion", "a.fold", "--motion", "dance", "-o", "m.gif"], "There is no motion 'dance'"),
         (["motion", "a.fold", "--steps", "0", "-o", "m.gif"], "--steps must be from 1"),
         (["motion", "tuck", "-o", "m.gif"], "no motion that is known"),
@@ -211,6 +211,8 @@ def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) ->
     assert told["file_classes"] == ["animation"]
     assert len(told["file_frames"]) == 1 + 5
     assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.gif").code == 0
+    assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.glb").code == 0
+    assert Path("m.glb").read_bytes().startswith(b"glTF")
     assert Path("m.gif").read_bytes().startswith(b"GIF89a")
 
 
