@@ -2,7 +2,8 @@
 
 ``read`` and ``write`` turn text into a Fold and back and lose nothing on the way: unknown keys,
 other frames and unknown per-element arrays are kept in ``Fold.meta["fold"]``. ``write_mesh`` gives
-the bytes of an OBJ, STL or GLB file, ``write_motion`` those of an animated GLB. None of them touches the disk.
+the bytes of an OBJ, STL or GLB file, ``write_motion`` those of an animated GLB. None of them
+touches the disk.
 """
 
 from __future__ import annotations
