@@ -29,6 +29,7 @@ STEPS = 100
 LAST = 0.999
 """Share of the way at which the last look is taken: at its very end everything is in one plane."""
 PASSES, FAILS, UNDECIDED = "passes", "fails", "undecided"
+FLAT, NOT_FLAT = "folds flat", "does not fold flat"
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,18 +50,18 @@ class Closing:
 
 
 def report(closing: Closing) -> dict[str, Any]:
-    """Return verdict, reason, a row for every kind of inner vertex, and what the way shows."""
+    """Return verdict, reason, what each of both looks says, and a row for every inner point."""
     meridian = closing.places(np.zeros(1))[0]
     rows = list(_rows(closing, meridian))
+    rule, why = _by_rule(rows)
     stop = _first_fault(closing)
-    verdict, why = _verdict(rows)
+    way = stop or f"No facet passes through another at the {STEPS + 1} places looked at on the way."
     return {
-        "verdict": verdict,
-        "why": why,
-        "way": stop or "No facet passes through another at any place looked at on the way.",
+        "verdict": NOT_FLAT if stop or rule == FAILS else UNDECIDED if rule == UNDECIDED else FLAT,
+        "why": f"{why} {way}",
+        "limit_rule": rule,
         "way_is_free": not stop,
         "looked_at": STEPS + 1,
-        "rule": "Kawasaki and Maekawa in the limit: necessary, not sufficient.",
         "points": rows,
     }
 
@@ -102,12 +103,14 @@ def _judged(seen: FlatVertex, is_open: bool) -> str:
     return UNDECIDED if is_open else PASSES if seen.holds else FAILS
 
 
-def _verdict(rows: list[dict[str, Any]]) -> tuple[str, str]:
+def _by_rule(rows: list[dict[str, Any]]) -> tuple[str, str]:
     for verdict in (FAILS, UNDECIDED):
         those = [row for row in rows if row["verdict"] == verdict]
         if those:
             return verdict, " ".join(_reason(row) for row in those)
-    return PASSES, f"Kawasaki and Maekawa hold at all {len(rows)} kinds of inner vertices."
+    if not rows:
+        return PASSES, "There is no inner vertex to judge."
+    return PASSES, f"Kawasaki and Maekawa hold in the limit, at each of {len(rows)} inner points."
 
 
 def _reason(row: dict[str, Any]) -> str:

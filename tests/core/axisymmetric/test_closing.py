@@ -24,7 +24,11 @@ def report(design: Design[Any], params: Params) -> dict[str, Any]:
 @pytest.mark.parametrize("name", SEVEN)
 def test_a_shape_that_is_known_to_fold_flat_passes(name: str) -> None:
     said = report(SIX_CREASE, SIX_CREASE.preset(name))
-    assert (said["verdict"], said["way_is_free"]) == ("passes", True)
+    assert (said["verdict"], said["limit_rule"]) == ("folds flat", "passes")
+    assert said["why"] == (
+        "Kawasaki and Maekawa hold in the limit, at each of 5 inner points. "
+        "No facet passes through another at the 101 places looked at on the way."
+    )
     assert [row["point"] for row in said["points"]] == [3, 4, 5, 6, 7]
     assert all(abs(row["M_minus_V"]) == 2 for row in said["points"])
     assert all(row["kawasaki_deg"] < 1e-11 for row in said["points"])
@@ -32,9 +36,9 @@ def test_a_shape_that_is_known_to_fold_flat_passes(name: str) -> None:
 
 def test_the_interrupted_vase_fails_by_the_rule_and_on_its_way() -> None:
     said = report(SIX_CREASE, SIX_CREASE.preset("vase-interrupted"))
-    assert said["verdict"] == "fails"
+    assert (said["verdict"], said["limit_rule"]) == ("does not fold flat", "fails")
     assert "At point 5 mountains less valleys are 0 in the limit, not 2 or −2" in said["why"]
-    assert said["way"] == (
+    assert said["why"].endswith(
         "At a folding rate of 6 % the form lies on both sides of its axis (point 7)."
     )
 
@@ -49,18 +53,18 @@ def test_the_centre_and_the_rim_are_left_out_of_a_rotational_form(name: str) -> 
 
 def test_what_passes_through_nothing_on_its_way_never_fails_the_rule() -> None:
     free = failed = 0
-    for seed in range(150):
+    for seed in range(80):
         params = random_design(seed)
         try:
             said = report(SIX_CREASE, params)
         except ImpossibleGeometry:
             continue
         if said["way_is_free"]:
-            assert said["verdict"] == "passes", seed
+            assert (said["limit_rule"], said["verdict"]) == ("passes", "folds flat"), seed
             assert find_reach(params)[0] == 1
             free += 1
-        failed += said["verdict"] == "fails"
-    assert min(free, failed) >= 10, (free, failed)
+        failed += said["limit_rule"] == "fails"
+    assert min(free, failed) >= 5, (free, failed)
 
 
 def test_passing_the_rule_is_not_enough() -> None:
@@ -71,11 +75,12 @@ def test_passing_the_rule_is_not_enough() -> None:
             said = report(SIX_CREASE, params)
         except ImpossibleGeometry:
             continue
-        if said["verdict"] == "passes" and "pass through each other" in said["way"]:
+        if said["limit_rule"] == "passes" and "pass through each other" in said["why"]:
             break
     else:
         pytest.fail("no such form among them")
-    rate = float(said["way"].split("rate of ")[1].split(" %")[0]) / 100
+    assert said["verdict"] == "does not fold flat"
+    rate = float(said["why"].split("rate of ")[1].split(" %")[0]) / 100
     fold = SIX_CREASE.run(params)
     motion = fold.motions["along-arc"]
     before, there = motion.at(max(rate - 0.01, 0)), motion.at(rate)
@@ -91,4 +96,7 @@ def test_a_point_that_turns_freely_stops_the_way_at_its_start() -> None:
         {"n": 6, "L": 10 / np.tan(np.pi / 6), "phi": 90, "beta": 90, "points": points}
     )
     said = report(SIX_CREASE, params)
-    assert said["way"] == "At a folding rate of 0 % point 3 has no place, or turns freely."
+    assert said["why"] == (
+        "There is no inner vertex to judge. "
+        "At a folding rate of 0 % point 3 has no place, or turns freely."
+    )
