@@ -15,6 +15,10 @@ NEARLY_CLOSED_DEG: Final = 1e-2
 """deg. How far φ is opened from 0 or 180 to see to which side a crease closes. A hundred times
 CLOSED_DEG, so that the sign is no noise there; so little that no other crease changes its own."""
 
+OFF_AXIS: Final = 1e-5
+"""Share of the form's size by which a point on the axis is drawn out to see to which side a crease
+closes. Five times what CLOSED_DEG is in rad, as the facet is never higher than the form."""
+
 ANGLE_SUM_RAD: Final = 1e-11
 """rad. Largest deviation of an interior vertex's angle sum from 2π (solved patterns: 1e-14)."""
 
@@ -25,6 +29,10 @@ edge it would punish slivers: they reach 6e-11 of themselves at 3e-14 of the she
 ANGLE_SUM_READ_RAD: Final = 1e-5
 """rad. As ANGLE_SUM_RAD, for a form read from a file. Coordinates of four decimals (0.1 µm) spread
 over facets of a centimetre turn their angles by so much (measured: 8e-6); a hand cannot fold it."""
+
+KAWASAKI_DEG: Final = 1e-3
+"""deg. By how much every other sector angle at a vertex that folds flat may sum to another value
+than 180. Solved patterns reach 1e-12; a hand cannot fold a thousandth."""
 
 ISOMETRY_READ: Final = 1e-6
 """As ISOMETRY, for a form read from a file: four decimals of a sheet of 100 mm (measured: 5e-7)."""

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
-import numpy as np
 from pydantic import Field
 
-from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, many, many_rosettes, rosette, strip, unfold
+from foldmill import Angle, Count, Design, Fold, Params, hookimpl
+from foldmill.axisymmetric import (
+    closed,
+    closing,
+    handles,
+    many,
+    many_rosettes,
+    rosette,
+    strip,
+    unfold,
+)
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
-from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
-from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
 
 
 def _points(words: str) -> dict[int, LinePoint]:
@@ -45,27 +52,10 @@ def generate(params: RotationalParams) -> Fold:
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
     rose = rosette.assemble(rosette.HalfWedge.of(solved))
-    fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
+    signs = closed.signs(rose.half, params.phi, params.points)
+    fold = rosette.fold(rose, signs, wedge_decides=True)
     opening = unfold.motion(rose, params.n, params.phi, params.points)
     return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
-
-
-def _closed_signs(rose: Rosette, params: RotationalParams) -> EdgeSigns:
-    """Return the sign of creases that φ closes to ±180: the one they have just before they close.
-
-    Creases that stay closed whatever φ is get none.
-    """
-    near = min(max(params.phi, NEARLY_CLOSED_DEG), 180 - NEARLY_CLOSED_DEG)
-    if near == params.phi:
-        return {}
-    try:
-        half = rosette.HalfWedge.of(strip.solve(params.n, near, dict(params.points)))
-    except ImpossibleGeometry:  # the form exists at its very end alone
-        return {}
-    ajar = rose.moved(half).fold_angles
-    moves = np.abs(ajar) < 180 - CLOSED_DEG
-    pairs, signs = rose.edge_origins[moves].tolist(), np.sign(ajar[moves])
-    return {(a, b): int(sign) for (a, b), sign in zip(pairs, signs, strict=True)}
 
 
 def free_phi(params: RotationalParams) -> dict[str, object]:
@@ -80,6 +70,19 @@ def free_phi(params: RotationalParams) -> dict[str, object]:
         "free_deg": [list(span) for span in free_intervals(params.n, params.points)],
         "looked_at_every_deg": STEP_DEG,
     }
+
+
+def flat_foldability(params: RotationalParams) -> dict[str, object]:
+    """Report whether the form, cut along p_0-p_2-p_4-…, folds flat along the arc.
+
+    Raises InvalidParameters and ImpossibleGeometry as ``generate`` does.
+    """
+    solved = strip.solve(params.n, params.phi, dict(params.points))
+    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    branches = {i: point.branch for i, point in params.points.items() if i >= 2}
+    places = partial(closing.along_arc, solved, branches)
+    front = -1 if rosette.is_inside_out(rose) else 1
+    return closing.report(closing.Closing(rose, branches, places, 0, front))
 
 
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
@@ -98,7 +101,7 @@ DESIGN = Design(
     params=RotationalParams,
     generate=generate,
     presets=PRESETS,
-    reports={"free-phi": free_phi},
+    reports={"flat-foldability": flat_foldability, "free-phi": free_phi},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
 DESIGN = replace(DESIGN, batch=many.batch_of(DESIGN, many_rosettes.prepare))

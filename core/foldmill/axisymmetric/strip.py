@@ -144,13 +144,18 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
 
 
 def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: float) -> Floats:
-    base, across = flat[i - 2], flat[i - 1]
-    d = float(np.hypot(*(flat[i] - base)))
-    c = float((across - base) @ (flat[i] - base)) / d
-    paper = Paper(d, c, abs(_turn(base, flat[i], across)) / d, float(np.abs(flat).max()))
+    paper = paper_of(i, flat, float(np.abs(flat).max()))
     remedy = f"Bring point {i - 1} nearer to the axis, or move it outwards in the pattern."
     side = Side(point.branch, point.gamma)
     return place(i, paper, side, meridian[i - 2 : i], theta, remedy)
+
+
+def paper_of(i: int, flat: Floats, size: float) -> Paper:
+    """Measure the triangle (i-2, i-1, i) of a flat strip (m, 2), mm; size : its largest one."""
+    base, across = flat[i - 2], flat[i - 1]
+    d = float(np.hypot(*(flat[i] - base)))
+    c = float((across - base) @ (flat[i] - base)) / d
+    return Paper(d, c, abs(_turn(base, flat[i], across)) / d, size)
 
 
 @dataclass(frozen=True)

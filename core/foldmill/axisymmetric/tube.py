@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,11 +105,26 @@ class Sheet:
         outwards = float((corners.mean(axis=1) * normal)[:, :2].sum())
         return outwards < -(DISH * float(np.abs(self.spatial).max()) ** 3)
 
-    def finish(self) -> tuple[CreasePattern, FoldedForm]:
-        """Return pattern and folded form, the front on the outside."""
+    def finish(self, closed: Indices) -> tuple[CreasePattern, FoldedForm]:
+        """Return pattern and folded form, the front on the outside.
+
+        closed : the signs of the first edges, seen from above, where they fold to ±180.
+        """
         flat, faces = self.flat, self.faces
+        signs = np.zeros(len(self.edges), np.intp)
+        signs[: len(closed)] = closed
         if self.is_inside_out:
-            flat, faces = flat * np.array([-1.0, 1.0]), faces[:, ::-1]
-        unsigned = np.zeros(len(self.edges), int)
-        pattern, form = fold_pattern(flat, self.spatial, self.edges, faces, unsigned)
+            flat, faces, signs = flat * np.array([-1.0, 1.0]), faces[:, ::-1], -signs
+        pattern, form = fold_pattern(flat, self.spatial, self.edges, faces, signs)
         return pattern, replace(form, seams=self.seams)
+
+
+class Glued(Protocol):
+    """A sheet with paper along its seam that closes the tube: tabs, or an overlap."""
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet with that paper; old vertices keep their numbers."""
+
+    def carry(self, spatial: Floats) -> Floats:
+        """Return old vertices (V, 3) of a form on its way, followed by the new ones."""

@@ -17,6 +17,7 @@ from foldmill_fabricate.cli.output import (
     figure_lines,
     finding_data,
     finding_lines,
+    report_text,
     say,
     table,
 )
@@ -96,7 +97,7 @@ def report(
 
     offered = installed().design(family)
     figures = offered.report(name, gather(offered, preset, params, context.args))
-    say(as_json, dict(figures), figure_lines(figures))
+    say(as_json, dict(figures), report_text(figures))
 
 
 def marked(fold: Fold, found: Sequence[Finding]) -> Fold:

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.axisymmetric.tabs import Tabs
-from foldmill.axisymmetric.tube import Tube, in_space
-from foldmill.motion import Motion
+from foldmill.axisymmetric.tube import Glued, Tube, in_space
+from foldmill.motion import Measure, Motion
 from foldmill.tolerances import ON_LINE
 from foldmill_plugins.six_crease import solve
 from foldmill_plugins.six_crease.params import SixCreaseParams
@@ -20,14 +19,16 @@ Floats = NDArray[np.float64]
 
 SAMPLES = 200
 """Places at which the way is looked at: half a percent of the folding rate apart."""
+FOLDING_RATE = Measure("folding rate FR", "%", 0.0, 100.0)
+"""Eq. 5.8: even with t, as Θ' is."""
 ROUNDS = 4
 """How often the step before the first fault is divided by SAMPLES again."""
 
 
-def along_arc(params: SixCreaseParams, whole: Tube, glued: Tabs | None) -> Motion:
+def along_arc(params: SixCreaseParams, whole: Tube, glued: Glued | None) -> Motion:
     """Return the motion, and how far it goes: to where a point has no place or is on the axis.
 
-    glued : the tabs of the sheet, which stay rigid with the facets that hold them.
+    glued : the sheet with its tabs or its overlap, which knows how they move along.
     """
     start = glued.sheet.spatial if glued else whole.spatial
     reach, reason = find_reach(params)
@@ -39,7 +40,8 @@ def along_arc(params: SixCreaseParams, whole: Tube, glued: Tabs | None) -> Motio
         places = whole.turned(in_space(solve.meridian(params, theta), theta), theta)
         return glued.carry(places) if glued else places
 
-    return Motion("along-arc", "Fold flat along the arc, the seam open", path, reach, reason)
+    title = "Fold flat along the arc, the seam open"
+    return Motion("along-arc", title, path, reach, reason, FOLDING_RATE)
 
 
 def folding_rate(params: SixCreaseParams, theta: float) -> float:
