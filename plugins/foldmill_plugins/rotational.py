@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from pydantic import Field
 
 from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, rosette, strip, unfold
+from foldmill.axisymmetric import handles, rosette, slit, strip, unfold
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
 from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
+from foldmill.axisymmetric.slit import SlitRosette
+from foldmill.motion import Motion
 from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
 
 
@@ -36,6 +39,9 @@ class RotationalParams(Params):
     """Angle between the innermost crease and the axis; 90 is the flat sheet."""
     points: LinePoints = Field(default_factory=_bowl)
     """Points p_1, p_2 … outwards: odd ones on line l1, even ones on line l2, 180°/N from it."""
+    slit: bool = False
+    """Whether the sheet is cut along one line l2, from its centre through p_2, p_4 … to the
+    outline, so that it folds flat along the arc."""
 
 
 def generate(params: RotationalParams) -> Fold:
@@ -44,10 +50,17 @@ def generate(params: RotationalParams) -> Fold:
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    half = rosette.HalfWedge.of(solved)
+    rose = slit.assemble(half) if params.slit else rosette.assemble(half)
     fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
-    opening = unfold.motion(rose, params.n, params.phi, params.points)
-    return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
+    moves = {move.name: move for move in _motions(rose, params)}
+    return replace(fold, motions=moves, handles=handles.handles(fold, rose, params))
+
+
+def _motions(rose: Rosette, params: RotationalParams) -> Iterator[Motion]:
+    yield unfold.motion(rose, params.n, params.phi, params.points)
+    if isinstance(rose, SlitRosette):
+        yield slit.motion(rose, params.phi, params.points)
 
 
 def _closed_signs(rose: Rosette, params: RotationalParams) -> EdgeSigns:
