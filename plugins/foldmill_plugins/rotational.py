@@ -54,7 +54,14 @@ def generate(params: RotationalParams) -> Fold:
     rose = slit.assemble(half) if params.slit else rosette.assemble(half)
     fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
     moves = {move.name: move for move in _motions(rose, params)}
-    return replace(fold, motions=moves, handles=handles.handles(fold, rose, params))
+    grips = handles.handles(fold, rose, params)
+    return replace(fold, motions=moves, handles=grips, meta=_facts(moves.get("along-arc")))
+
+
+def _facts(folding: Motion | None) -> dict[str, object]:
+    if folding is None:
+        return {}
+    return {"along-arc": {"folding_rate": 100 * folding.reach, "stops": folding.reason}}
 
 
 def _motions(rose: Rosette, params: RotationalParams) -> Iterator[Motion]:
