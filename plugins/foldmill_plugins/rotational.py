@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, rosette, slit, strip, unfold
+from foldmill import Angle, Coordinate, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
+from foldmill.axisymmetric import handles, rosette, slit, strap, strip, unfold
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
-from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
+from foldmill.axisymmetric.rosette import EdgeSigns, HalfWedge, Rosette
 from foldmill.axisymmetric.slit import SlitRosette
+from foldmill.folded import FoldedForm
 from foldmill.motion import Motion
 from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
 
@@ -42,6 +44,15 @@ class RotationalParams(Params):
     slit: bool = False
     """Whether the sheet is cut along one line l2, from its centre through p_2, p_4 … to the
     outline, so that it folds flat along the arc."""
+    strap: Coordinate = Field(default=0.0, ge=0)
+    """Width, on either side of the slit, of the strap that is glued over it to close it. Above 0 it
+    is the strap that is made, a second sheet; 0 makes the form."""
+
+    @model_validator(mode="after")
+    def _strap_needs_a_slit(self) -> Self:
+        if self.strap and not self.slit:
+            raise ValueError("a strap closes a slit, and this form has none; set slit to true")
+        return self
 
 
 def generate(params: RotationalParams) -> Fold:
@@ -49,13 +60,23 @@ def generate(params: RotationalParams) -> Fold:
 
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
-    solved = strip.solve(params.n, params.phi, dict(params.points))
-    half = rosette.HalfWedge.of(solved)
+    half = rosette.HalfWedge.of(strip.solve(params.n, params.phi, dict(params.points)))
+    if params.strap:
+        return _strap(half, params)
     rose = slit.assemble(half) if params.slit else rosette.assemble(half)
     fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
     moves = {move.name: move for move in _motions(rose, params)}
     grips = handles.handles(fold, rose, params)
     return replace(fold, motions=moves, handles=grips, meta=_facts(moves.get("along-arc")))
+
+
+def _strap(half: HalfWedge, params: RotationalParams) -> Fold:
+    opened, whole = slit.assemble(half), rosette.assemble(half)
+    fold = rosette.fold(whole, _closed_signs(whole, params), wedge_decides=True)
+    mouth = opened.flat[opened.seams[-1, 0]]
+    if rosette.is_inside_out(whole):
+        mouth = mouth * np.array([1.0, -1.0])
+    return strap.cut(fold, FoldedForm(whole.spatial), mouth, params.n, params.strap)
 
 
 def _facts(folding: Motion | None) -> dict[str, object]:
