@@ -1,8 +1,8 @@
 """The motion along the arc: the planes close on each other, and the open sheet folds flat.
 
 Θ' goes from Θ = 180°/N to 0 while the first points, every branch and the flat sheet stay (thesis
-3.3.2 and 5.2.1). The folding rate is FR = 100 (1 − Θ'/Θ) % (Eq. 5.8), so that t = FR / 100. The sheet
-is open along one l2: at t the gap between its borders is 2·N·(Θ − Θ').
+3.3.2 and 5.2.1). The folding rate is FR = 100 (1 − Θ'/Θ) % (Eq. 5.8), so that t = FR / 100. The
+sheet is open along one l2: at t the gap between its borders is 2·N·(Θ − Θ').
 """
 
 from __future__ import annotations
