@@ -56,6 +56,20 @@ class Params(BaseModel):
         extra="forbid", frozen=True, use_attribute_docstrings=True, validate_default=True
     )
 
+    @classmethod
+    def renumbered(
+        cls,
+        values: dict[str, Any],
+        name: str,  # noqa: ARG003 - for models that override it
+        moved: Mapping[int, int],  # noqa: ARG003
+    ) -> dict[str, Any]:
+        """Return plain values after numbered parts were inserted or dropped: as they are.
+
+        name : the parameter with the parts, such as "points"; moved : old number → new number of
+        every part that is still there. A model overrides it where other parameters name such parts.
+        """
+        return values
+
 
 @dataclass(frozen=True, eq=False)
 class Symmetry:

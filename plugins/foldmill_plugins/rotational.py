@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from typing import Self
 
-from pydantic import Field
+import numpy as np
+from pydantic import Field, model_validator
 
-from foldmill import Angle, Count, Design, Fold, Params, hookimpl
+from foldmill import Angle, Coordinate, Count, Design, Fold, Params, hookimpl
 from foldmill.axisymmetric import (
+    along_arc,
     closed,
     closing,
     handles,
     many,
     many_rosettes,
     rosette,
+    slit,
+    strap,
     strip,
     unfold,
 )
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
+from foldmill.axisymmetric.rosette import HalfWedge, Rosette
+from foldmill.axisymmetric.slit import SlitRosette
+from foldmill.axisymmetric.strip import Strip
+from foldmill.folded import FoldedForm
+from foldmill.motion import Motion
 
 
 def _points(words: str) -> dict[int, LinePoint]:
@@ -43,6 +54,18 @@ class RotationalParams(Params):
     """Angle between the innermost crease and the axis; 90 is the flat sheet."""
     points: LinePoints = Field(default_factory=_bowl)
     """Points p_1, p_2 … outwards: odd ones on line l1, even ones on line l2, 180°/N from it."""
+    slit: bool = False
+    """Whether the sheet is cut along one line l2, from its centre through p_2, p_4 … to the
+    outline, so that it folds flat along the arc."""
+    strap: Coordinate = Field(default=0.0, ge=0)
+    """Width, on either side of the slit, of the strap that is glued over it to close it. Above 0 it
+    is the strap that is made, a second sheet; 0 makes the form."""
+
+    @model_validator(mode="after")
+    def _strap_needs_a_slit(self) -> Self:
+        if self.strap and not self.slit:
+            raise ValueError("a strap closes a slit, and this form has none; set slit to true")
+        return self
 
 
 def generate(params: RotationalParams) -> Fold:
@@ -51,11 +74,44 @@ def generate(params: RotationalParams) -> Fold:
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    half = HalfWedge.of(solved)
+    if params.strap:
+        return _strap(half, params)
+    rose = slit.assemble(half) if params.slit else rosette.assemble(half)
+    fold = _closed(rose, params)
+    moves = {move.name: move for move in _motions(rose, solved, params)}
+    grips = handles.handles(fold, rose, params)
+    return replace(fold, motions=moves, handles=grips, meta=_facts(moves.get("along-arc")))
+
+
+def _closed(rose: Rosette, params: RotationalParams) -> Fold:
     signs = closed.signs(rose.half, params.phi, params.points)
-    fold = rosette.fold(rose, signs, wedge_decides=True)
-    opening = unfold.motion(rose, params.n, params.phi, params.points)
-    return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
+    return rosette.fold(rose, signs, wedge_decides=True)
+
+
+def _strap(half: HalfWedge, params: RotationalParams) -> Fold:
+    opened, whole = slit.assemble(half), rosette.assemble(half)
+    mouth = opened.flat[opened.seams[-1, 0]]
+    if rosette.is_inside_out(whole):
+        mouth = mouth * np.array([1.0, -1.0])
+    fold, form = _closed(whole, params), FoldedForm(whole.spatial)
+    return strap.cut(fold, form, mouth, params.n, params.strap)
+
+
+def _facts(folding: Motion | None) -> dict[str, object]:
+    if folding is None:
+        return {}
+    return {"along-arc": {"folding_rate": 100 * folding.reach, "stops": folding.reason}}
+
+
+def _motions(rose: Rosette, solved: Strip, params: RotationalParams) -> Iterator[Motion]:
+    yield unfold.motion(rose, params.n, params.phi, params.points)
+    if isinstance(rose, SlitRosette):
+        yield slit.motion(rose, solved, _branches(params))
+
+
+def _branches(params: RotationalParams) -> dict[int, int]:
+    return {i: point.branch for i, point in params.points.items() if i >= 2}
 
 
 def free_phi(params: RotationalParams) -> dict[str, object]:
@@ -79,8 +135,8 @@ def flat_foldability(params: RotationalParams) -> dict[str, object]:
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
     rose = rosette.assemble(rosette.HalfWedge.of(solved))
-    branches = {i: point.branch for i, point in params.points.items() if i >= 2}
-    places = partial(closing.along_arc, solved, branches)
+    branches = _branches(params)
+    places = partial(along_arc.meridians, solved, branches)
     front = -1 if rosette.is_inside_out(rose) else 1
     return closing.report(closing.Closing(rose, branches, places, 0, front))
 

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from foldmill import planar
 from foldmill.axisymmetric import flattened
 from foldmill.axisymmetric.rosette import Rosette, Seat
-from foldmill.axisymmetric.strip import Strip, meet, paper_of
 from foldmill.check.flat_foldability import FlatVertex, flat_vertex
 from foldmill.check.intersection import penetrations
 from foldmill.tolerances import ON_LINE
@@ -64,17 +63,6 @@ def report(closing: Closing) -> dict[str, Any]:
         "looked_at": STEPS + 1,
         "points": rows,
     }
-
-
-def along_arc(solved: Strip, branches: Mapping[int, int], thetas: Floats) -> Floats:
-    """Return P_0 … P_T (K, T+1, 2) at angles Θ' (K,) in rad; P_0, P_1 and the pattern stay."""
-    spots = np.full((len(thetas), len(solved.flat), 2), np.nan)
-    spots[:, :2] = solved.meridian[:2]
-    size = float(np.abs(solved.flat).max())
-    for i in range(2, len(solved.flat)):
-        paper = paper_of(i, solved.flat, size)
-        spots[:, i] = meet(paper, branches[i], spots[:, i - 2], spots[:, i - 1], thetas)
-    return spots
 
 
 def _rows(closing: Closing, meridian: Floats) -> Iterator[dict[str, Any]]:

@@ -121,6 +121,16 @@ class Rosette:
         """(E,) deg, seen from above; near ±180 the sign is noise."""
         return fold_angles(self.spatial, self.edges, self.faces, self.edge_faces)
 
+    @property
+    def seams(self) -> Indices:
+        """(S, 2) vertices that are two in the pattern and one in the closed form."""
+        return np.zeros((0, 2), np.intp)
+
+    @property
+    def rim(self) -> Indices:
+        """The vertices of the outline, ascending."""
+        return np.unique(self.edges[(self.edge_faces < 0).any(axis=1)])
+
     @cached_property
     def edge_origins(self) -> Indices:
         """(E, 2) the two points of the half wedge behind each edge, ascending."""
@@ -196,12 +206,11 @@ def fold(rose: Rosette, closed: EdgeSigns | None = None, *, wedge_decides: bool)
     half = rose.half
     wedge = np.arange(len(half.faces))
     symmetry = Symmetry(half.order, wedge, half.one_sided and wedge_decides)
-    return Fold(pattern, FoldedForm(rose.spatial), symmetry)
+    return Fold(pattern, FoldedForm(rose.spatial, rose.seams), symmetry)
 
 
 def is_inside_out(rose: Rosette) -> bool:
     """Tell whether the upper side of the sheet is the inside of the dished form."""
-    rim = np.unique(rose.edges[(rose.edge_faces < 0).any(axis=1)])
-    corners = (rose.spatial - rose.spatial[rim].mean(axis=0))[rose.faces]
+    corners = (rose.spatial - rose.spatial[rose.rim].mean(axis=0))[rose.faces]
     volume = float(np.linalg.det(corners).sum()) / 6
     return volume < -(DISH * float(np.abs(rose.spatial).max()) ** 3)

@@ -80,8 +80,7 @@ def solve(
     if not isinstance(first, LinePoint):
         raise InvalidParameters("Point 1 lies on its line; it is moved by a and φ, not by r and z.")
     flat[1] = (first.a, 0.0)
-    tilt = np.radians(phi)
-    meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
+    meridian[1] = first_point(first.a, phi)
     _refuse_near(1, flat)
     off_line: list[int] = []
     crossing: list[int] = []
@@ -115,6 +114,11 @@ def _refuse_near(i: int, flat: Floats) -> None:
             )
 
 
+def first_point(a: float, phi: float) -> Floats:
+    """Return P_1 as (r, z), mm, for its distance a from the centre and φ in deg."""
+    return a * np.array([_sine(phi), np.cos(np.radians(phi)) if phi != 90 else 0.0])
+
+
 def _sine(degrees: float) -> float:
     return 0.0 if degrees in {0, 180} else float(np.sin(np.radians(degrees)))
 
@@ -144,18 +148,9 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
 
 
 def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: float) -> Floats:
-    paper = paper_of(i, flat, float(np.abs(flat).max()))
     remedy = f"Bring point {i - 1} nearer to the axis, or move it outwards in the pattern."
-    side = Side(point.branch, point.gamma)
-    return place(i, paper, side, meridian[i - 2 : i], theta, remedy)
-
-
-def paper_of(i: int, flat: Floats, size: float) -> Paper:
-    """Measure the triangle (i-2, i-1, i) of a flat strip (m, 2), mm; size : its largest one."""
-    base, across = flat[i - 2], flat[i - 1]
-    d = float(np.hypot(*(flat[i] - base)))
-    c = float((across - base) @ (flat[i] - base)) / d
-    return Paper(d, c, abs(_turn(base, flat[i], across)) / d, size)
+    side, before = Side(point.branch, point.gamma), meridian[i - 2 : i]
+    return place(i, Paper.of(flat, i), side, before, theta, remedy)
 
 
 @dataclass(frozen=True)
@@ -170,6 +165,14 @@ class Paper:
     """Distance of p_{i-1} from the line of that side."""
     size: float
     """The largest coordinate of the pattern, against which rounding is measured."""
+
+    @classmethod
+    def of(cls, flat: Floats, i: int) -> Paper:
+        """Return the triangle (i-2, i-1, i) of points p_0 … p_T (T+1, 2), mm."""
+        base, across = flat[i - 2], flat[i - 1]
+        d = float(np.hypot(*(flat[i] - base)))
+        c = float((across - base) @ (flat[i] - base)) / d
+        return cls(d, c, abs(_turn(base, flat[i], across)) / d, float(np.abs(flat).max()))
 
 
 @dataclass(frozen=True)

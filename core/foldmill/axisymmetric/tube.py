@@ -13,6 +13,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.axisymmetric.along_arc import in_space
 from foldmill.axisymmetric.rosette import HalfWedge, Rosette, Seat, VertexKey, weld
 from foldmill.folded import FoldedForm, fold_pattern
 from foldmill.pattern import CreasePattern
@@ -55,13 +56,6 @@ def half_wedge(order: int, flat: Floats, meridian: Floats) -> HalfWedge:
     one_sided = bool((r >= 0).all() or (r <= 0).all())
     spatial = in_space(meridian, np.pi / order)
     return HalfWedge(order, flat, spatial, seats, np.array(faces, np.intp), one_sided)
-
-
-def in_space(meridian: Floats, theta: float) -> Floats:
-    """Return P_1 … P_T (T, 3) from (r, z) (T, 2): odd ones at azimuth 0, even ones at theta rad."""
-    azimuth = np.where(np.arange(len(meridian)) % 2 == 1, theta, 0.0)
-    r, z = meridian.T
-    return np.column_stack([r * np.cos(azimuth), r * np.sin(azimuth), z])
 
 
 def assemble(half: HalfWedge) -> Tube:

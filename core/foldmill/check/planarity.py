@@ -2,6 +2,9 @@
 
 Edges meet only in vertices; every vertex is one point; the boundary is one simple polygon. Together
 with faces that run counter-clockwise this leaves no paper upon paper.
+
+A slit has no width: its banks lie upon each other. The pattern is looked at with its slits sewn up,
+so that they are inner cuts and the outline goes past their mouths.
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ from foldmill.check.report import Figure, Report, counted, edge_name, vertex_nam
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import Assignment, CreasePattern, Flags, Floats, Indices
+from foldmill.slits import Sewn, sewn
 from foldmill.tolerances import COINCIDENT_MM
 
 
@@ -29,7 +33,9 @@ def planarity(fold: Fold) -> Report:
         "width_mm": float(size[0]),
         "height_mm": float(size[1]),
     }
-    return Report.joined([Report((), figures), _graph(pattern), _outline(pattern)])
+    closed = sewn(pattern)
+    figures["slits"] = len(pattern.edges) - len(closed.edges)
+    return Report.joined([Report((), figures), _graph(pattern, closed), _outline(pattern, closed)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +48,15 @@ class Faults:
     """(k, 2) a vertex, and an edge that runs through it."""
     crossing: Indices
     """(k, 2) pairs of edges that cross between their ends."""
+
+    def beside(self, closed: Sewn) -> Faults:
+        """Return what is wrong beside the slits, by the numbers of the opened pattern."""
+        known = set(map(tuple, closed.pairs.tolist()))
+        kept = [pair for pair in self.coincident.tolist() if tuple(pair) not in known]
+        lying = self.lying.copy()
+        lying[:, 1] = closed.edges[lying[:, 1]]
+        coincident = np.array(kept, np.intp).reshape(-1, 2)
+        return Faults(coincident, lying, closed.edges[self.crossing])
 
 
 def faults(points: Floats, edges: Indices) -> Faults:
@@ -92,8 +107,8 @@ def _straddles(line: Floats, other: Floats) -> Flags:
     return both
 
 
-def _graph(pattern: CreasePattern) -> Report:
-    found = faults(pattern.vertices, pattern.edges)
+def _graph(pattern: CreasePattern, closed: Sewn) -> Report:
+    found = faults(pattern.vertices, closed.pattern.edges).beside(closed)
     figures: dict[str, Figure] = {
         "coincident_vertices": len(found.coincident),
         "vertices_on_edges": len(found.lying),
@@ -117,7 +132,7 @@ def _graph(pattern: CreasePattern) -> Report:
     return Report(tuple(findings), figures)
 
 
-def _outline(pattern: CreasePattern) -> Report:
+def _outline(pattern: CreasePattern, closed: Sewn) -> Report:
     loops, border = pattern.outline(), pattern.count(Assignment.B)
     figures: dict[str, Figure] = {"outline_loops": len(loops)}
     stray = border - sum(len(loop) for loop in loops)
@@ -126,17 +141,21 @@ def _outline(pattern: CreasePattern) -> Report:
         said += f" and {counted(stray, 'edge', 'edges')} beside." if stray else ", not one."
         remedy = "A sheet has one outline; draw cuts inside it as cuts."
         return Report((_fault("outline", "outline", said, remedy),), figures)
-    reason = _broken(pattern.vertices[loops[0]])
+    reason = _broken(closed.pattern)
     if reason:
         remedy = "Move its vertices apart."
         return Report((_fault("outline", "outline", reason, remedy),), figures)
     return Report.joined([Report((), figures), _filling(pattern, pattern.vertices[loops[0]])])
 
 
-def _broken(loop: Floats) -> str:
+def _broken(closed: CreasePattern) -> str:
+    """Return what is wrong with the one outline of a pattern whose slits are sewn up."""
     import shapely
 
-    outline = shapely.Polygon(loop)
+    loops = closed.outline()
+    if len(loops) != 1:
+        return f"Slits divide the sheet: sewn up, it has {len(loops)} closed loops."
+    outline = shapely.Polygon(closed.vertices[loops[0]])
     if outline.is_valid:
         return ""
     return f"The outline meets itself ({shapely.is_valid_reason(outline)})."

@@ -59,7 +59,8 @@ def design(
     """Make a fold: foldmill design FAMILY [--preset P] [--PARAM V]… -o FILE.
 
     Parameters go by their dotted names, such as --points.3.a 172.5; foldmill design FAMILY --help
-    lists them with units.
+    lists them with units. --insert points.3 makes room for another point 3, --drop points.3 leaves
+    one out; later points get new numbers.
     """
     from foldmill import installed
     from foldmill.check import check as check_fold

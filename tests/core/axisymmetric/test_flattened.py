@@ -9,7 +9,7 @@ import pytest
 from six_crease_oracle import random_design
 
 from foldmill import ImpossibleGeometry, InvalidParameters
-from foldmill.axisymmetric import closing, flattened, rosette, strip, tube
+from foldmill.axisymmetric import flattened, rosette, strip, tube
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.axisymmetric.rosette import HalfWedge, Rosette
 from foldmill.folded import fold_angles
@@ -36,7 +36,7 @@ def rotational(seed: int) -> Case | None:
         return None
     branches = {i: point.branch for i, point in points.items() if i >= 2}
     rose = rosette.assemble(HalfWedge.of(solved))
-    limit, thin = closing.along_arc(solved, branches, np.array([0.0, THIN]))
+    limit, thin = along_arc.meridians(solved, branches, np.array([0.0, THIN]))
     return rose, branches, limit, rose.turned(_in_space(thin, 0), THIN)
 
 
