@@ -9,7 +9,7 @@ import pytest
 from six_crease_oracle import random_design
 
 from foldmill import ImpossibleGeometry, InvalidParameters
-from foldmill.axisymmetric import flattened, rosette, strip, tube
+from foldmill.axisymmetric import along_arc, flattened, rosette, strip, tube
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.axisymmetric.rosette import HalfWedge, Rosette
 from foldmill.folded import fold_angles
