@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,7 +47,7 @@ class Strip:
         """Θ = π/N, rad."""
         return float(np.pi / self.order)
 
-    @property
+    @cached_property
     def spatial(self) -> Floats:
         """(T+1, 3) the points in space: odd ones at azimuth 0, even ones at Θ."""
         azimuth = np.where(np.arange(len(self.meridian)) % 2 == 0, self.theta, 0.0)

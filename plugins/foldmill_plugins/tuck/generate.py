@@ -62,9 +62,10 @@ def _place(rose: Rosette, made: list[Flap], wishes: list[Wish], inside: int) -> 
     """Place the flaps: first those whose corners are all given, then the others around them."""
     if not made:
         return []
-    filled = np.concatenate([flap.faces for flap in made])
-    number = np.arange(len(rose.faces)) % len(rose.half.faces)
-    surface = rose.spatial[rose.faces[~np.isin(number, filled)]]
+    is_surface = np.ones(len(rose.half.faces), bool)
+    for flap in made:
+        is_surface[flap.faces] = False
+    surface = rose.spatial[rose.faces[np.tile(is_surface, 2 * rose.half.order)]]
     order = sorted(range(len(made)), key=lambda k: not wishes[k].is_given)
     around = Surroundings.of(rose.half.order, surface)
     found = search.arrange([(made[k].blank, wishes[k]) for k in order], around, inside)
