@@ -54,6 +54,11 @@ PENETRATION, so that no copy penetrates unseen; a file of six decimals keeps it 
 COINCIDENT_MM: Final = 1e-6
 """mm. Two points nearer than this are one. A thousandth of the finest plotter step is 2.5e-5."""
 
+HANDLE_GAP_MM: Final = 1e-3
+"""mm. The nearest that a handle brings a point to what limits it: a neighbour on its line, an end
+of a tuck's segment. A thousand times COINCIDENT_MM, so that what lies between has a length; no more
+than a plotter can tell, so that a drag leaves out no value that could be typed in and cut."""
+
 ON_LINE: Final = 1e-9
 """Share of the sheet's size within which a point lies on its symmetry line: then there is no blank
 to tuck. Far above rounding (1e-15), far below any tuck a person could fold."""

@@ -35,7 +35,7 @@ class Tucked:
 
 
 def flaps(solved: strip.Strip, seed: int) -> list[Tucked]:
-    """Return a random flap for every closed blank that takes one, clear of the ends of its range."""
+    """Return a random flap, clear of the ends of its range, for every closed blank with one."""
     rng, found = np.random.default_rng(seed), []
     try:
         closed = [blank for blank in blanks.find(solved) if not blank.is_open]
