@@ -27,8 +27,23 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 def lengths(vectors: Floats) -> Floats:
     """Return the lengths (...) of vectors (..., k)."""
-    squares: Floats = (vectors * vectors).sum(axis=-1)
-    return np.sqrt(squares)
+    squares = vectors * vectors
+    total = squares[..., 0]
+    for k in range(1, squares.shape[-1]):
+        total = total + squares[..., k]
+    return np.sqrt(total)
+
+
+def least(triples: Floats) -> Floats:
+    """Return the least (...) of three numbers (..., 3)."""
+    smaller: Floats = np.minimum(triples[..., 0], triples[..., 1])
+    return np.minimum(smaller, triples[..., 2])
+
+
+def most(triples: Floats) -> Floats:
+    """Return the greatest (...) of three numbers (..., 3)."""
+    greater: Floats = np.maximum(triples[..., 0], triples[..., 1])
+    return np.maximum(greater, triples[..., 2])
 
 
 def units(vectors: Floats) -> Floats:

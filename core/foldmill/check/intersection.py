@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from foldmill.folded import face_normals
 from foldmill.planar import edge_faces
 from foldmill.tolerances import PENETRATION
-from foldmill.vectors import cross, lengths, units
+from foldmill.vectors import cross, least, lengths, most, units
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -156,8 +156,8 @@ def cut_lengths(one: Floats, two: Floats, eps: float) -> Floats:
     """
     found = np.zeros(len(one))
     normal_one, normal_two = triangle_normals(one), triangle_normals(two)
-    height_two = ((two - one[:, :1]) * normal_one[:, None]).sum(axis=2)
-    height_one = ((one - two[:, :1]) * normal_two[:, None]).sum(axis=2)
+    height_two = np.einsum("nij,nj->ni", two - one[:, :1], normal_one)
+    height_one = np.einsum("nij,nj->ni", one - two[:, :1], normal_two)
     both = np.flatnonzero(_straddles(height_one, eps) & _straddles(height_two, eps))
     if not len(both):
         return found
@@ -177,21 +177,18 @@ def triangle_normals(triangles: Floats) -> Floats:
 
 def _straddles(heights: Floats, eps: float) -> Flags:
     """Tell which triangles, by their corners' heights (n, 3), are on both sides of a plane."""
-    flags: Flags = (heights.min(axis=1) < -eps) & (heights.max(axis=1) > eps)
+    flags: Flags = (least(heights) < -eps) & (most(heights) > eps)
     return flags
 
 
 def _span(triangles: Floats, heights: Floats, line: Floats) -> tuple[Floats, Floats]:
     """Return where the triangles' cut with the other plane begins and ends along ``line``."""
-    along = (triangles * line[:, None]).sum(axis=2)
+    along = np.einsum("nij,nj->ni", triangles, line)
     after, along_after = heights[:, [1, 2, 0]], along[:, [1, 2, 0]]
     crosses = (heights * after < 0) | (heights == 0)
     share = heights / np.where(heights == after, 1.0, heights - after)
     spots = along + share * (along_after - along)
-    return (
-        np.where(crosses, spots, np.inf).min(axis=1),
-        np.where(crosses, spots, -np.inf).max(axis=1),
-    )
+    return least(np.where(crosses, spots, np.inf)), most(np.where(crosses, spots, -np.inf))
 
 
 def _along_edges(mesh: _Mesh, edges: Indices) -> Iterator[Indices]:
