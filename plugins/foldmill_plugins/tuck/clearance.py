@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from foldmill.check.intersection import cut_lengths, triangle_normals
 from foldmill.tolerances import PENETRATION
+from foldmill.vectors import least, most
 from foldmill_plugins.tuck.blanks import Blank
 from foldmill_plugins.tuck.corners import Corners
 
@@ -110,12 +111,22 @@ def _among_its_kind(blank: Blank, points: Floats, around: Surroundings) -> Float
     flaps = points[:, faces]  # (S, m, 3, 3)
     turns = range(around.order // 2 + 1)
     others = np.stack([_turned(flaps, around.order, turn) for turn in turns])
-    meets = _strangers(faces, len(turns))[:, None]
-    low, high = flaps.min(axis=2)[None, :, :, None], flaps.max(axis=2)[None, :, :, None]
-    meets = meets & (others.min(axis=3)[:, :, None] <= high).all(axis=4)
-    meets &= (others.max(axis=3)[:, :, None] >= low).all(axis=4)
+    low, high = _boxes(flaps)
+    other_low, other_high = _boxes(others)
+    meets = np.broadcast_to(
+        _strangers(faces, len(turns))[:, None], (*others.shape[:3], len(faces))
+    ).copy()  # (turns, S, m, m)
+    for axis in range(3):
+        meets &= other_low[:, :, None, :, axis] <= high[:, :, None, axis]
+        meets &= other_high[:, :, None, :, axis] >= low[:, :, None, axis]
     k, s, a, b = np.nonzero(meets)
     return _summed(len(points), s, cut_lengths(flaps[s, a], others[k, s, b], around.eps))
+
+
+def _boxes(triangles: Floats) -> tuple[Floats, Floats]:
+    """Return the lower and the upper corners (..., 3) of the boxes about triangles (..., 3, 3)."""
+    corners = np.swapaxes(triangles, -1, -2)
+    return least(corners), most(corners)
 
 
 def _strangers(faces: Indices, turns: int) -> NDArray[np.bool_]:
