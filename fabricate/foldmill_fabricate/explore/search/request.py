@@ -12,7 +12,7 @@ from foldmill_fabricate.explore.search.targets import Target
 
 EVALUATIONS = 2400
 """Forms that are folded and measured: half a minute to a minute for a stool on two cores."""
-LEAST = 100
+LEAST = 60
 """Fewer are no search."""
 
 

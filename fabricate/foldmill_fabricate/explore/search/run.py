@@ -7,7 +7,7 @@ same seed gives the same results on any machine and any number of cores.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,30 +63,34 @@ def search(
     begun = time.monotonic()
     judge = Judge.of_family(design, request)
     frames = starts.frames(design, request)
-    steps = 1 + ROUNDS
     with Parallel(n_jobs=jobs) as workers:
         islands = _scouted(judge, frames, workers)
         used = len(islands) * (SAMPLES + 1)
-        tell("starts", 1, steps, _least(islands))
-        left: list[Island] = []
-        stopped = False
         alive = _chosen(islands, request.evaluations)
-        round_took = 0.0
-        for stage, generations in enumerate(_plan(len(alive), request.evaluations - used)):
+        plan = _plan(len(alive), request.evaluations - used)
+        tell("starts", 1, 1 + len(plan), _least(islands))
+        took = 0.0
+        for stage, generations in enumerate(plan, 1):
             now = time.monotonic()
-            stopped = now + round_took > begun + seconds
-            if stopped:
-                break
+            if now + took > begun + seconds:
+                return Outcome(best(judge, islands), used, True)
             alive = list(workers(delayed(evolve)(judge, i, stage, generations) for i in alive))
             used += len(alive) * generations * MEMBERS
-            round_took = time.monotonic() - now
-            alive.sort(key=lambda island: (island.score, island.number))
-            tell(f"round {stage + 1}", 2 + stage, steps, _least(alive))
-            keep = _after(len(alive))
-            left, alive = left + alive[keep:], alive[:keep]
-    known = {island.number for island in (*alive, *left)}
-    rest = [island for island in islands if island.number not in known]
-    return Outcome(best(judge, [*alive, *left, *rest]), used, stopped)
+            islands = _renewed(islands, alive)
+            tell(f"round {stage}", 1 + stage, 1 + len(plan), _least(alive))
+            alive = sorted(alive, key=_rank)[: _after(len(alive))]
+            took = time.monotonic() - now
+    return Outcome(best(judge, islands), used, False)
+
+
+def _renewed(islands: list[Island], evolved: list[Island]) -> list[Island]:
+    """Return all islands, each as it is now."""
+    newer = {island.number: island for island in evolved}
+    return [newer.get(island.number, island) for island in islands]
+
+
+def _rank(island: Island) -> tuple[float, int]:
+    return island.score, island.number
 
 
 def _scouted(judge: Judge, frames: list[Frame], workers: Any) -> list[Island]:
@@ -102,7 +106,7 @@ def _scouted(judge: Judge, frames: list[Frame], workers: Any) -> list[Island]:
 
 def _chosen(islands: list[Island], evaluations: int) -> list[Island]:
     """Return the islands that evolve: the best of each start first, then the best of the rest."""
-    ranked = sorted(islands, key=lambda island: (island.score, island.number))
+    ranked = sorted(islands, key=_rank)
     first = {island.frame.title: island for island in reversed(ranked)}
     leading = [island for island in ranked if first[island.frame.title] is island]
     others = [island for island in ranked if first[island.frame.title] is not island]
@@ -110,11 +114,14 @@ def _chosen(islands: list[Island], evaluations: int) -> list[Island]:
     return [*leading, *others][:most]
 
 
-def _plan(islands: int, evaluations: int) -> Iterator[int]:
-    """Yield the generations of each round, so that each takes about the same number of forms."""
-    for _ in range(ROUNDS):
-        yield max(1, evaluations // (ROUNDS * islands * MEMBERS))
+def _plan(islands: int, evaluations: int) -> list[int]:
+    """Return the generations of each round, so that each takes about the same number of forms."""
+    rounds = min(ROUNDS, max(1, evaluations // (islands * MEMBERS)))
+    plan = []
+    for _ in range(rounds):
+        plan.append(max(1, evaluations // (rounds * islands * MEMBERS)))
         islands = _after(islands)
+    return plan
 
 
 def _after(islands: int) -> int:
