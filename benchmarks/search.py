@@ -9,8 +9,8 @@ CPU s       processor seconds of all processes together: half of it is the time 
 ms          processor milliseconds per form that is folded and measured
 met         how many of the five results meet every target within 1 %
 error       of the best one: how far all targets are missed, added up, in shares of their values
-start       the same for the nearest preset when it is merely resized, as a floor to beat; - where no
-            resized preset folds on the sheet
+start       the same for the nearest preset when it is merely resized: what a search has to beat;
+            - where no resized preset folds on the sheet
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from foldmill_fabricate.explore.search.request import EVALUATIONS
 from foldmill_fabricate.explore.search.score import Judge
 from foldmill_fabricate.explore.search.starts import frames
 
-SEARCHES = (
+SEARCHES: tuple[tuple[str, str, tuple[float, float], dict[str, float]], ...] = (
     ("tuck", "height=150 width=220", (500, 500), {}),
     ("tuck", "height=180 width=250", (600, 600), {}),
     ("tuck", "height=150 seat=200", (500, 500), {"n": 6.0}),
@@ -50,8 +50,7 @@ def _floor(family: str, request: Request) -> float | None:
     errors = []
     for number, frame in enumerate(frames(judge.design, request)):
         for member in settle(judge, number, frame, 1).found:
-            if member.verdict.figures is not None:
-                errors.append(judge.distance(member.verdict.figures))
+            errors += [judge.distance(figures) for figures in [member.verdict.figures] if figures]
     return min(errors, default=None)
 
 

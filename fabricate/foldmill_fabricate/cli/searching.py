@@ -7,15 +7,15 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from foldmill import FoldmillError, InvalidInput
+from foldmill import Design, FoldmillError, InvalidInput
 from foldmill_fabricate.cli.output import AsJson, say, table
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.explore.search import Outcome, Request, Result
+    from foldmill_fabricate.explore.search import Outcome, Request, Result, Target
     from foldmill_fabricate.explore.search.fit import Room
     from foldmill_fabricate.explore.search.run import Tell
 
@@ -72,7 +72,7 @@ def search(
     name, such as --n 6; all other numbers may vary.
     """
     from foldmill import installed
-    from foldmill_fabricate.explore.search import Request, Target, contents, report
+    from foldmill_fabricate.explore.search import Request, contents, report
     from foldmill_fabricate.explore.search import search as look
     from foldmill_fabricate.explore.search.request import EVALUATIONS
     from foldmill_fabricate.files import write_all
@@ -83,11 +83,12 @@ def search(
     if not seconds > 0:
         raise FoldmillError(f"--seconds must be above 0, not {seconds:g}.")
     room, least = _limits(material, sheet, min_crease)
+    targets, given = _targets(offered, target or ())
     request = Request(
-        tuple(Target.read(text) for text in target or ()),
+        targets,
         room,
         least,
-        fixed=_fixed(context.args),
+        fixed=given | _fixed(context.args),
         vary=tuple(vary or ()),
         presets=tuple(preset or ()),
         seed=seed,
@@ -101,6 +102,26 @@ def search(
     say(as_json, report.data(outcome, request, family), _text(outcome, request, output))
     if not outcome.results or outcome.results[0].missed:
         raise typer.Exit(1)
+
+
+def _targets(
+    design: Design[Any], texts: Sequence[str]
+) -> tuple[tuple[Target, ...], dict[str, float]]:
+    """Return the measures aimed at; a parameter that is named as one, such as n=6, is given."""
+    from fnmatch import fnmatchcase
+
+    from foldmill.schema import leaves
+    from foldmill_fabricate.explore.search import Target
+
+    targets: list[Target] = []
+    given: dict[str, float] = {}
+    for text in texts:
+        name, _, value = (part.strip() for part in text.partition("="))
+        if any(fnmatchcase(name, leaf.kind) for leaf in leaves(design.schema())):
+            given |= _fixed([f"--{name}", value])
+        else:
+            targets.append(Target.read(text))
+    return tuple(targets), given
 
 
 def _limits(material: str, sheet: str | None, least: float | None) -> tuple[Room, float]:

@@ -53,7 +53,16 @@ def test_a_search_writes_its_forms_a_table_and_a_picture(foldmill: Foldmill) -> 
 
 
 def test_what_is_given_is_kept(foldmill: Foldmill) -> None:
-    words = ("--target", "height=60±20%", "--n", "7", "--vary", "points.*.a", "--preset", "bowl-n8")
+    words = (
+        "--target",
+        "height=60±20%",
+        "--target",
+        "n=7",
+        "--vary",
+        "points.*.a",
+        "--preset",
+        "bowl-n8",
+    )
     code, out, _ = foldmill("search", "rotational", *words, *SMALL, "--json")
     assert code == 0
     for each in json.loads(out)["results"]:

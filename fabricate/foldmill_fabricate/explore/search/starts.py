@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from foldmill import Design, InvalidInput, InvalidParameters
+from foldmill.schema import Leaf
 from foldmill_fabricate.explore.search import frame as framing
 from foldmill_fabricate.explore.search import ties
 from foldmill_fabricate.explore.search.frame import Frame, Values, Variable, put, value_of
@@ -67,6 +68,11 @@ def _frame(design: Design[Any], request: Request, title: str, values: Values) ->
     design.validate(given)
     free = {leaf.name for leaf in wanted}
     kept = tuple(variable for variable in whole if free.issuperset(variable.names))
+    if not kept and not any(_varies(request, leaf.name) for leaf in _discrete(design, given)):
+        raise InvalidParameters(
+            "Nothing is left to vary: what is named is given, does nothing, or cannot move alone. "
+            "Name other parameters, or all that are tied together."
+        )
     return Frame(title, given, kept).afresh()
 
 
@@ -118,6 +124,11 @@ def variant(design: Design[Any], request: Request, frame: Frame, rng: np.random.
             if order > 2:
                 values = ties.with_order(values, tied_names(frame.variables), leaf.name, order)
     return replace(frame, values=values).afresh()
+
+
+def _discrete(design: Design[Any], values: Values) -> Iterator[Leaf]:
+    yield from framing.choices(design, values)
+    yield from (leaf for leaf in framing.numbers(design, values) if leaf.is_integer)
 
 
 def _varies(request: Request, name: str) -> bool:

@@ -58,8 +58,8 @@ def test_no_form_is_another_or_a_preset(found: Outcome) -> None:
 
 def _heights(fold: Fold) -> NDArray[np.float64]:
     assert fold.folded is not None
-    z: NDArray[np.float64] = fold.folded.vertices[:, 2]
-    return z - z.min()
+    z: NDArray[np.float64] = fold.folded.vertices[:, 2] - fold.folded.vertices[:, 2].min()
+    return z
 
 
 def test_the_best_comes_first(found: Outcome) -> None:

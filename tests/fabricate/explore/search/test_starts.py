@@ -99,5 +99,7 @@ def test_unknown_names_are_refused() -> None:
         frames(rotational.DESIGN, asked(vary=("points",)))
     with pytest.raises(UnknownName, match="no preset"):
         frames(rotational.DESIGN, asked(presets=("bowl",)))
+    with pytest.raises(InvalidParameters, match="Nothing is left to vary"):
+        frames(tuck.DESIGN, asked(vary=("phi",), presets=("stool-n8",)))
     with pytest.raises(InvalidParameters, match="n: Input should be greater"):
         frames(rotational.DESIGN, asked(fixed={"n": 2}))
