@@ -91,7 +91,7 @@ def test_targets_that_are_not_met_end_with_one_and_by_how_much(foldmill: Foldmil
         (("--target", "height=80", "--preset", "vase"), "There is no preset of rotational"),
         (("--target", "height=80", "--points.9.a", "3"), "There is no parameter 'points.9.a'"),
         (("--target", "height=80", "--n", "many"), "numbers only, not 'many'"),
-        (("--target", "height=80", "--n", "2"), "n: Input should be greater"),
+        (("--target", "height=80", "--n", "2"), "n must be at least 3, not 2"),
         (("--target", "height=80", "--jobs", "0"), "--jobs must be 1 or more"),
         (("--target", "height=80", "--seconds", "0"), "--seconds must be above 0"),
         (("--target", "height=80", "--evaluations", "2"), "60 evaluations at least"),

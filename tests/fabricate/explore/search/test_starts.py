@@ -101,5 +101,5 @@ def test_unknown_names_are_refused() -> None:
         frames(rotational.DESIGN, asked(presets=("bowl",)))
     with pytest.raises(InvalidParameters, match="Nothing is left to vary"):
         frames(tuck.DESIGN, asked(vary=("phi",), presets=("stool-n8",)))
-    with pytest.raises(InvalidParameters, match="n: Input should be greater"):
+    with pytest.raises(InvalidParameters, match="n must be at least 3, not 2"):
         frames(rotational.DESIGN, asked(fixed={"n": 2}))
