@@ -12,7 +12,15 @@ from typing import Any
 import typer
 
 from foldmill.errors import FoldmillError
-from foldmill_fabricate.cli import catalogue, designing, exploring, making, moving, running
+from foldmill_fabricate.cli import (
+    catalogue,
+    designing,
+    exploring,
+    making,
+    moving,
+    running,
+    searching,
+)
 
 app = typer.Typer(
     name="foldmill",
@@ -27,6 +35,7 @@ catalogue.add_to(app)
 designing.add_to(app)
 moving.add_to(app)
 exploring.add_to(app)
+searching.add_to(app)
 making.add_to(app)
 running.add_to(app)
 

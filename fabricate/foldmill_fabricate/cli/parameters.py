@@ -34,13 +34,13 @@ def gather(
     values: dict[str, Any] = base.model_dump()
     if file is not None:
         values |= _toml(file)
-    given = list(_pairs(options))
+    given = list(pairs(options))
     for name, text in given:
         if name in _EDITS:
             values = _renumber(design.params, values, name, text)
-    pairs = [(name.split("."), _value(text)) for name, text in given if name not in _EDITS]
-    _start_anew(values, pairs)
-    for path, value in pairs:
+    placed = [(name.split("."), _value(text)) for name, text in given if name not in _EDITS]
+    _start_anew(values, placed)
+    for path, value in placed:
         _put(values, path, value)
     params: Params = design.validate(values)
     return params
@@ -134,7 +134,8 @@ def _toml(file: Path) -> dict[str, Any]:
         raise UnreadableFile(f"{file} is no TOML file: {error}.") from None
 
 
-def _pairs(options: Sequence[str]) -> Iterator[tuple[str, str]]:
+def pairs(options: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield name and text of --name value and --name=value; raises InvalidParameters."""
     words = iter(options)
     for word in words:
         if not word.startswith("--"):
