@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 import numpy as np
@@ -54,6 +54,12 @@ def with_values(design: Design[P], base: P, values: Mapping[str, float]) -> P:
     for name, value in values.items():
         _set(nested, name, value)
     return design.validate(nested)
+
+
+def require_known(base: Params, names: Iterable[str]) -> None:
+    """Raise InvalidParameters, with the names there are, for a dotted name of no parameter."""
+    for name in names:
+        _set(base.model_dump(mode="json"), name, 0.0)
 
 
 def _set(nested: Any, name: str, value: float) -> None:

@@ -27,6 +27,7 @@ from foldmill.folded import FoldedForm
 from foldmill.handle import Handle
 from foldmill.motion import Motion
 from foldmill.pattern import CreasePattern, Indices
+from foldmill.refusals import explain
 
 MOST_MM = 1e5
 """mm. Nothing in a pattern lies farther out: 100 m of paper, far below where squares overflow."""
@@ -54,6 +55,20 @@ class Params(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, use_attribute_docstrings=True, validate_default=True
     )
+
+    @classmethod
+    def renumbered(
+        cls,
+        values: dict[str, Any],
+        name: str,  # noqa: ARG003 - for models that override it
+        moved: Mapping[int, int],  # noqa: ARG003
+    ) -> dict[str, Any]:
+        """Return plain values after numbered parts were inserted or dropped: as they are.
+
+        name : the parameter with the parts, such as "points"; moved : old number → new number of
+        every part that is still there. A model overrides it where other parameters name such parts.
+        """
+        return values
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +149,7 @@ class Design(Generic[P]):
             try:
                 return self.params.model_validate(values)
             except ValidationError as error:
-                raise InvalidParameters(explain(error)) from None
+                raise InvalidParameters(explain(error, self.params)) from None
 
     def run(self, values: Mapping[str, Any] | P = _NOTHING) -> Fold:
         """Validate, generate, and record in ``meta`` which design and parameters it was.
@@ -190,16 +205,3 @@ def _blamed(slug: str) -> Iterator[None]:
             f"The family {slug!r} is broken: with these parameters it fails with "
             f"{one_line(error).rstrip('.')}. Other parameters may work; tell its author."
         ) from error
-
-
-def explain(error: ValidationError) -> str:
-    """Return pydantic's findings as sentences that name each parameter by its dotted name."""
-    sentences = []
-    for fault in error.errors():
-        place = ".".join(str(part) for part in fault["loc"] if part not in {"line", "free"})
-        said = fault["msg"].removeprefix("Value error, ").rstrip(".")
-        holds_others = isinstance(fault["input"], (Mapping, list, tuple))
-        is_shown = place and fault["type"] != "missing" and not holds_others
-        given = f" (got {fault['input']!r})" if is_shown else ""
-        sentences.append(f"{place}: {said}{given}." if place else f"{said}.")
-    return " ".join(sentences)

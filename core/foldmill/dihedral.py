@@ -12,6 +12,7 @@ from foldmill.design import Fold
 from foldmill.errors import InvalidParameters
 from foldmill.folded import fold_angles
 from foldmill.motion import Motion
+from foldmill.pattern import Assignment
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -28,6 +29,8 @@ class DihedralTable:
     """(m,) t of the motion."""
     angles: Floats
     """(m, k) deg in [0, 180]: interior angle between the facets, 180 − |fold angle|."""
+    names: tuple[str, ...]
+    """(k,) each crease by its two vertices and its letter in the pattern: "17-23 M"."""
 
 
 def dihedral_angles(
@@ -44,7 +47,13 @@ def dihedral_angles(
         180 - np.abs(fold_angles(motion.at(float(t)), ends, pattern.faces, around)) for t in times
     ]
     table = np.array(rows, np.float64).reshape(len(rows), len(edges))
-    return DihedralTable(vertex, edges, np.asarray(times, np.float64), table)
+    names = tuple(_name(fold, vertex, int(edge)) for edge in edges)
+    return DihedralTable(vertex, edges, np.asarray(times, np.float64), table, names)
+
+
+def _name(fold: Fold, vertex: int, edge: int) -> str:
+    far = int(fold.pattern.edges[edge].sum()) - vertex
+    return f"{vertex}-{far} {Assignment(fold.pattern.assignments[edge]).name}"
 
 
 def creases_of(fold: Fold, vertex: int) -> Indices:

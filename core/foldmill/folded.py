@@ -11,6 +11,7 @@ from foldmill import planar
 from foldmill.errors import InvalidPattern
 from foldmill.pattern import Assignment, Codes, CreasePattern, Floats, Indices
 from foldmill.tolerances import CLOSED_DEG, FLAT_DEG
+from foldmill.vectors import cross, units
 
 
 def _no_seams() -> Indices:
@@ -47,11 +48,8 @@ class FoldedForm:
 
 def face_normals(vertices: Floats, faces: Indices) -> Floats:
     """Return the unit normals (F, 3) of triangles (F, 3) over vertices (V, 3)."""
-    corner = vertices[faces]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    lengths = np.linalg.norm(normal, axis=1, keepdims=True)
-    unit: Floats = normal / np.where(lengths > 0, lengths, 1.0)
-    return unit
+    first = vertices[faces[:, 0]]
+    return units(cross(vertices[faces[:, 1]] - first, vertices[faces[:, 2]] - first))
 
 
 def fold_angles(
@@ -66,10 +64,8 @@ def fold_angles(
     normals = face_normals(points, faces)
     inner = (edge_faces >= 0).all(axis=1)
     f, g = normals[edge_faces[inner, 0]], normals[edge_faces[inner, 1]]
-    along = points[edges[inner, 1]] - points[edges[inner, 0]]
-    lengths = np.linalg.norm(along, axis=1, keepdims=True)
-    along = along / np.where(lengths > 0, lengths, 1.0)
-    sine = np.einsum("ij,ij->i", np.cross(f, g), along)
+    along = units(points[edges[inner, 1]] - points[edges[inner, 0]])
+    sine = np.einsum("ij,ij->i", cross(f, g), along)
     angles = np.zeros(len(edges))
     angles[inner] = -np.degrees(np.arctan2(sine, np.einsum("ij,ij->i", f, g)))
     return angles

@@ -13,6 +13,28 @@ from foldmill.errors import InvalidParameters
 Floats = NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class Measure:
+    """What people read the progress of a motion by, where that is not t: it grows evenly with t."""
+
+    name: str
+    """For people: "folding rate"."""
+    unit: str
+    """Such as "%" or "°"."""
+    start: float
+    """Its value at t = 0."""
+    end: float
+    """Its value at t = 1."""
+
+    def at(self, t: float) -> float:
+        """Return its value at t."""
+        return self.start + (self.end - self.start) * t
+
+
+PLAIN = Measure("t", "", 0.0, 1.0)
+"""t itself."""
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """A named path of the vertices in space; t = 0 is the fold as it is.
@@ -28,6 +50,8 @@ class Motion:
     """How far it goes: 1 where nothing stops it."""
     reason: str = ""
     """Why it stops early, a sentence; empty where it does not."""
+    measure: Measure = PLAIN
+    """What its progress is read by."""
 
     def at(self, t: float) -> Floats:
         """Return the vertices (V, 3) mm at t; raises InvalidParameters beyond its reach."""

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from foldmill import planar
 from foldmill.errors import InvalidPattern
 from foldmill.tolerances import COINCIDENT_MM, FLAT_DEG
+from foldmill.vectors import lengths
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -123,15 +124,16 @@ class CreasePattern:
     def edge_lengths(self) -> Floats:
         """(E,) mm."""
         ends = self.vertices[self.edges]
-        lengths: Floats = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        return lengths
+        return lengths(ends[:, 1] - ends[:, 0])
 
     @cached_property
     def interior_vertices(self) -> Indices:
         """Indices of the vertices that lie on no boundary and no cut."""
-        border = np.isin(self.assignments, (Assignment.B, Assignment.C))
-        used = np.unique(self.edges)
-        return np.setdiff1d(used, self.edges[border])
+        border = (self.assignments == Assignment.B) | (self.assignments == Assignment.C)
+        inner = np.zeros(len(self.vertices), bool)
+        inner[self.edges] = True
+        inner[self.edges[border]] = False
+        return np.flatnonzero(inner)
 
     @cached_property
     def size(self) -> float:
@@ -175,7 +177,9 @@ def _frozen(
     try:
         with np.errstate(invalid="ignore"):  # nan has no whole number; the comparison says so
             array = np.array(value, dtype=dtype)
-        if np.issubdtype(dtype, np.integer) and not np.array_equal(array, np.asarray(value)):
+        is_same = getattr(value, "dtype", None) == array.dtype
+        whole = is_same or not np.issubdtype(dtype, np.integer)
+        if not whole and not np.array_equal(array, np.asarray(value)):
             raise ValueError("its numbers must be whole and in range")
         array = array.reshape(shape) if array.size == 0 else array
     except (TypeError, ValueError, OverflowError) as error:
@@ -204,14 +208,15 @@ def _validate_edges(pattern: CreasePattern) -> None:
         if len(getattr(pattern, name)) != len(edges):
             raise InvalidPattern(f"{len(edges)} edges need as many {name}.")
     _refuse(pattern.edge_lengths < COINCIDENT_MM, "edge {} has no length")
-    ordered = np.sort(edges, axis=1)
-    _, first = np.unique(ordered, axis=0, return_index=True)
-    _refuse(~np.isin(np.arange(len(edges)), first), "edge {} repeats an earlier edge")
+    is_repeated = np.ones(len(edges), bool)
+    is_repeated[planar.unique_pairs(edges)[1]] = False
+    _refuse(is_repeated, "edge {} repeats an earlier edge")
     _refuse(codes > max(Assignment), "edge {} has an unknown assignment")
     _refuse(~(np.abs(angles) <= 180), "edge {} folds by more than 180 degrees")
     wrong = ((codes == Assignment.M) & (angles > 0)) | ((codes == Assignment.V) & (angles < 0))
     _refuse(wrong, "edge {}: a mountain folds by a negative angle, a valley by a positive one")
-    still = np.isin(codes, (Assignment.B, Assignment.C, Assignment.F)) & (np.abs(angles) > FLAT_DEG)
+    is_crease = (codes == Assignment.M) | (codes == Assignment.V) | (codes == Assignment.U)
+    still = ~is_crease & (np.abs(angles) > FLAT_DEG)
     _refuse(still, "edge {} is no crease and yet has a fold angle")
 
 
@@ -224,8 +229,9 @@ def _validate_faces(pattern: CreasePattern) -> None:
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
     _refuse(area <= 0, "face {} does not run counter-clockwise")
-    fault = planar.topology_fault(pattern.edges, faces)
-    if fault is not None:
+    # Every side of a face is a side of one edge of its own, unless something is wrong.
+    if np.count_nonzero(pattern.edge_faces >= 0) != faces.size:
+        fault = planar.topology_fault(pattern.edges, faces)
         raise InvalidPattern(f"In the crease pattern, {fault}.")
     if len(faces):
         sides = (pattern.edge_faces >= 0).sum(axis=1)

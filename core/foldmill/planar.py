@@ -17,30 +17,57 @@ Indices = NDArray[np.intp]
 
 def face_sides(faces: Indices) -> tuple[Indices, Indices]:
     """Return the directed sides (3F, 2) of triangles (F, 3) and the face (3F,) each belongs to."""
-    sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    sides = np.stack([faces, faces[:, [1, 2, 0]]], axis=2).reshape(-1, 2)
     return sides, np.repeat(np.arange(len(faces)), 3)
 
 
 def edge_faces(edges: Indices, faces: Indices) -> Indices:
     """Return (E, 2): the face left and right of each edge, -1 where there is none."""
     sides, owners = face_sides(faces)
-    left_of = {(int(a), int(b)): int(f) for (a, b), f in zip(sides, owners, strict=True)}
-    pairs = [(left_of.get((a, b), -1), left_of.get((b, a), -1)) for a, b in edges.tolist()]
-    return np.array(pairs, np.intp).reshape(-1, 2)
+    if not len(edges) or not len(faces):
+        return np.full((len(edges), 2), -1, np.intp)
+    count = int(max(faces.max(), edges.max())) + 1
+    keys = _keys(sides, count)
+    order = np.argsort(keys, kind="stable")
+    wanted = np.stack([_keys(edges, count), _keys(edges[:, ::-1], count)], axis=1)
+    # Of faces that claim the same side, the last one has it.
+    spot = np.searchsorted(keys[order], wanted, side="right") - 1
+    found: Indices = np.where(keys[order][spot] == wanted, owners[order][spot], -1)
+    return found
+
+
+def _keys(pairs: Indices, count: int) -> Indices:
+    """Return one number (n,) for each ordered pair (n, 2) of numbers below ``count``."""
+    keys: Indices = pairs[:, 0] * count + pairs[:, 1]
+    return keys
+
+
+def unique_pairs(pairs: Indices) -> tuple[Indices, Indices]:
+    """Return the unordered pairs among (n, 2), ascending, and where each is first met."""
+    if not len(pairs):
+        return np.zeros((0, 2), np.intp), np.zeros(0, np.intp)
+    count = int(pairs.max()) + 1
+    keys = np.minimum(pairs[:, 0], pairs[:, 1]) * count + np.maximum(pairs[:, 0], pairs[:, 1])
+    found, first = np.unique(keys, return_index=True)
+    return np.column_stack(np.divmod(found, count)), first
 
 
 def topology_fault(edges: Indices, faces: Indices) -> str | None:
     """Say which face side is no edge or is used twice in one direction; None where all is well."""
     sides, owners = face_sides(faces)
-    known = {(int(a), int(b)) for a, b in np.sort(edges, axis=1)}
-    seen: set[tuple[int, int]] = set()
-    for (a, b), face in zip(sides.tolist(), owners.tolist(), strict=True):
-        if (min(a, b), max(a, b)) not in known:
-            return f"face {face} has the side {a}-{b}, which is no edge"
-        if (a, b) in seen:
-            return f"face {face} overlaps another face along the edge {a}-{b}"
-        seen.add((a, b))
-    return None
+    if not len(sides):
+        return None
+    count = int(max(sides.max(), edges.max(initial=0))) + 1
+    is_edge = np.isin(_keys(np.sort(sides, axis=1), count), _keys(np.sort(edges, axis=1), count))
+    is_repeated = np.ones(len(sides), bool)
+    is_repeated[np.unique(_keys(sides, count), return_index=True)[1]] = False
+    wrong = np.flatnonzero(~is_edge | is_repeated)
+    if not len(wrong):
+        return None
+    (a, b), face = sides[wrong[0]], owners[wrong[0]]
+    if not is_edge[wrong[0]]:
+        return f"face {face} has the side {a}-{b}, which is no edge"
+    return f"face {face} overlaps another face along the edge {a}-{b}"
 
 
 def polygons(points: Floats, edges: Indices) -> list[list[int]]:
@@ -67,10 +94,11 @@ def polygons(points: Floats, edges: Indices) -> list[list[int]]:
 
 def _next_half_edge(points: Floats, edges: Indices) -> dict[tuple[int, int], tuple[int, int]]:
     around: dict[int, list[tuple[float, int]]] = {}
-    for a, b in edges.tolist():
-        for tail, head in ((a, b), (b, a)):
-            step = points[head] - points[tail]
-            around.setdefault(tail, []).append((float(np.arctan2(step[1], step[0])), head))
+    halves = np.stack([edges, edges[:, ::-1]], axis=1).reshape(-1, 2)
+    steps = points[halves[:, 1]] - points[halves[:, 0]]
+    angles = np.arctan2(steps[:, 1], steps[:, 0]).tolist()
+    for (tail, head), angle in zip(halves.tolist(), angles, strict=True):
+        around.setdefault(tail, []).append((angle, head))
     turn: dict[tuple[int, int], tuple[int, int]] = {}
     for vertex, spokes in around.items():
         heads = [head for _, head in sorted(spokes)]

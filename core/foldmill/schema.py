@@ -9,7 +9,9 @@ import math
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
+
+from pydantic import BaseModel
 
 Schema = dict[str, Any]
 Path = tuple[str | int, ...]
@@ -90,6 +92,16 @@ def objects(schema: Schema) -> Iterator[tuple[str, Schema]]:
     for _, kind, node in _walk(schema, schema.get("$defs", {}), (), (), _NO_VALUES):
         if node.get("type") == "object":
             yield ".".join(kind), node
+
+
+def models(kind: Any) -> Iterator[type[BaseModel]]:
+    """Yield the parameter models in a type, the type itself and those of its fields included."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        yield kind
+        for field in kind.model_fields.values():
+            yield from models(field.annotation)
+    for part in get_args(kind):
+        yield from models(part)
 
 
 def outside(bound: Bound, is_integer: bool) -> float:

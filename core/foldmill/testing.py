@@ -15,10 +15,9 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, get_args
+from typing import Any
 
-from pydantic import BaseModel
-
+from foldmill import agreement
 from foldmill.check import RULES, Report, check, penetration, symmetry
 from foldmill.check.intersection import penetrations
 from foldmill.corners import corners, numbers
@@ -27,8 +26,9 @@ from foldmill.errors import FoldmillError, InvalidParameters, PluginFault, one_l
 from foldmill.exchange.fold import read, write
 from foldmill.finding import Severity
 from foldmill.pattern import Assignment
-from foldmill.schema import Bound, Leaf, leaves, objects, outside, placed
+from foldmill.schema import Bound, Leaf, leaves, models, objects, outside, placed
 
+_DOTTED = re.compile(r"[\w-]+(?:\.[\w-]+)*")
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _NOTHING: Mapping[str, str] = {}
 
@@ -63,7 +63,7 @@ def design_checks(
     """
     checks = [Check(name, partial(rule, design)) for name, rule in _RULES.items()]
     for case in ["defaults", *design.presets]:
-        for name, each in _CASE_RULES.items():
+        for name, each in (_CASE_RULES | (_BATCH_RULES if design.batch else {})).items():
             checks.append(Check(f"{name}[{case}]", partial(each, design, case)))
     unknown = sorted(set(expected_failures) - {check.name for check in checks})
     if unknown:
@@ -115,10 +115,8 @@ def _closed(design: Design[Any]) -> None:
     for name, part in objects(design.schema()):
         if "properties" in part:
             place = name or "the parameters"
-            is_closed = part.get("additionalProperties") is False
-            _require(
-                is_closed, f"{place}: derive it from Params, so that it refuses what is unknown."
-            )
+            said = f"{place}: derive it from Params, so that it refuses what is unknown."
+            _require(part.get("additionalProperties") is False, said)
 
 
 def _defaults(design: Design[Any]) -> None:
@@ -146,7 +144,7 @@ def _bounds_kept(design: Design[Any]) -> None:
 
 def _bounds_hold(design: Design[Any]) -> None:
     """Of two bounds of one sort, a quantity's and a field's, pydantic keeps the quantity's."""
-    for model in _models(design.params):
+    for model in models(design.params):
         for name, field in model.model_fields.items():
             for sort, tightest in (("ge", max), ("gt", max), ("le", min), ("lt", min)):
                 stated = [getattr(each, sort, None) for each in field.metadata]
@@ -155,16 +153,6 @@ def _bounds_hold(design: Design[Any]) -> None:
                     f"{model.__name__}.{name}: {sort}={values} contradict, and only the last holds."
                 )
                 _require(not values or values[-1] == tightest(values), said)
-
-
-def _models(kind: Any) -> Iterator[type[BaseModel]]:
-    """Yield the parameter models in a type, the type itself and those of its fields included."""
-    if isinstance(kind, type) and issubclass(kind, BaseModel):
-        yield kind
-        for field in kind.model_fields.values():
-            yield from _models(field.annotation)
-    for part in get_args(kind):
-        yield from _models(part)
 
 
 def _out_of_bounds(design: Design[Any]) -> Iterator[tuple[dict[str, Any], Leaf, Bound]]:
@@ -183,10 +171,15 @@ def _refused(design: Design[Any], values: dict[str, Any], name: str, what: str) 
     try:
         design.validate(values)
     except InvalidParameters as error:
-        parts = iter(str(error).split(":", 1)[0].split("."))
-        _require(all(p in parts for p in name.split(".")), f"{what} is refused without its name.")
+        _require(_names(str(error), name), f"{what} is refused without its name.")
     else:
         raise AssertionError(f"{what} is accepted; it must be refused.")
+
+
+def _names(sentence: str, name: str) -> bool:
+    """Tell whether a word of the sentence is the dotted name; it may say more on the way."""
+    said = [iter(word.split(".")) for word in _DOTTED.findall(sentence)]
+    return any(all(part in parts for part in name.split(".")) for parts in said)
 
 
 def _presets(design: Design[Any]) -> None:
@@ -269,6 +262,10 @@ def _round_trip(design: Design[Any], case: str) -> None:
     _require(write(read(written)) == written, "Its FOLD file changes when it is read and written.")
 
 
+def _batch_agrees(design: Design[Any], case: str) -> None:
+    agreement.require(design, _params(design, case), case)
+
+
 _STRUCTURE = tuple(rule for rule in RULES if rule is not penetration)
 """A form may pass through itself at the ends of its parameters; it may not fall to pieces."""
 _RULES: dict[str, Callable[[Design[Any]], None]] = {
@@ -293,3 +290,4 @@ _CASE_RULES: dict[str, Callable[[Design[Any], str], None]] = {
     "symmetric": _symmetric,
     "fold-round-trip": _round_trip,
 }
+_BATCH_RULES = {"batch-agrees": _batch_agrees}

@@ -5,7 +5,9 @@
     FoldmillError
     ├── CannotPlan (ValueError)      the fold, the material and the machine do not go together
     │   └── DoesNotFit               too large for the blank, the carrier or the machine
-    └── CannotSend (RuntimeError)    a job folder that must not be sent to a plotter
+    ├── CannotSend (RuntimeError)    a job folder that must not be sent to a plotter
+    ├── CannotExplore (ValueError)   a sweep that is asked for in a way that means nothing
+    └── EngineFailed (RuntimeError)  processes or a cluster that cannot do the work of a sweep
 """
 
 from __future__ import annotations
@@ -23,3 +25,11 @@ class DoesNotFit(CannotPlan):
 
 class CannotSend(FoldmillError, RuntimeError):
     """A job folder that must not be sent."""
+
+
+class CannotExplore(FoldmillError, ValueError):
+    """Ranges, rows or files of a sweep that mean nothing."""
+
+
+class EngineFailed(FoldmillError, RuntimeError):
+    """Processes or a cluster that cannot do, or have not finished, the work of a sweep."""

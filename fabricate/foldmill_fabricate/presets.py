@@ -9,8 +9,8 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from foldmill.design import explain
 from foldmill.errors import UnreadableFile
+from foldmill.refusals import explain
 
 
 class Preset(BaseModel):

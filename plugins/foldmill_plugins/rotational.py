@@ -2,17 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
+from typing import Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from foldmill import Angle, Count, Design, Fold, ImpossibleGeometry, Params, hookimpl
-from foldmill.axisymmetric import handles, rosette, strip, unfold
+from foldmill import Angle, Coordinate, Count, Design, Fold, Params, hookimpl
+from foldmill.axisymmetric import (
+    along_arc,
+    closed,
+    closing,
+    handles,
+    many,
+    many_rosettes,
+    rosette,
+    slit,
+    strap,
+    strip,
+    unfold,
+)
 from foldmill.axisymmetric.free import STEP_DEG, free_intervals, is_free
 from foldmill.axisymmetric.points import LinePoint, LinePoints
-from foldmill.axisymmetric.rosette import EdgeSigns, Rosette
-from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG
+from foldmill.axisymmetric.rosette import HalfWedge, Rosette
+from foldmill.axisymmetric.slit import SlitRosette
+from foldmill.axisymmetric.strip import Strip
+from foldmill.folded import FoldedForm
+from foldmill.motion import Motion
 
 
 def _points(words: str) -> dict[int, LinePoint]:
@@ -36,6 +54,18 @@ class RotationalParams(Params):
     """Angle between the innermost crease and the axis; 90 is the flat sheet."""
     points: LinePoints = Field(default_factory=_bowl)
     """Points p_1, p_2 … outwards: odd ones on line l1, even ones on line l2, 180°/N from it."""
+    slit: bool = False
+    """Whether the sheet is cut along one line l2, from its centre through p_2, p_4 … to the
+    outline, so that it folds flat along the arc."""
+    strap: Coordinate = Field(default=0.0, ge=0)
+    """Width, on either side of the slit, of the strap that is glued over it to close it. Above 0 it
+    is the strap that is made, a second sheet; 0 makes the form."""
+
+    @model_validator(mode="after")
+    def _strap_needs_a_slit(self) -> Self:
+        if self.strap and not self.slit:
+            raise ValueError("a strap closes a slit, and this form has none; set slit to true")
+        return self
 
 
 def generate(params: RotationalParams) -> Fold:
@@ -44,28 +74,44 @@ def generate(params: RotationalParams) -> Fold:
     Raises InvalidParameters for contradicting points, ImpossibleGeometry where one has no place.
     """
     solved = strip.solve(params.n, params.phi, dict(params.points))
-    rose = rosette.assemble(rosette.HalfWedge.of(solved))
-    fold = rosette.fold(rose, _closed_signs(rose, params), wedge_decides=True)
-    opening = unfold.motion(rose, params.n, params.phi, params.points)
-    return replace(fold, motions={"unfold": opening}, handles=handles.handles(fold, rose, params))
+    half = HalfWedge.of(solved)
+    if params.strap:
+        return _strap(half, params)
+    rose = slit.assemble(half) if params.slit else rosette.assemble(half)
+    fold = _closed(rose, params)
+    moves = {move.name: move for move in _motions(rose, solved, params)}
+    grips = handles.handles(fold, rose, params)
+    return replace(fold, motions=moves, handles=grips, meta=_facts(moves.get("along-arc")))
 
 
-def _closed_signs(rose: Rosette, params: RotationalParams) -> EdgeSigns:
-    """Return the sign of creases that φ closes to ±180: the one they have just before they close.
+def _closed(rose: Rosette, params: RotationalParams) -> Fold:
+    signs = closed.signs(rose.half, params.phi, params.points)
+    return rosette.fold(rose, signs, wedge_decides=True)
 
-    Creases that stay closed whatever φ is get none.
-    """
-    near = min(max(params.phi, NEARLY_CLOSED_DEG), 180 - NEARLY_CLOSED_DEG)
-    if near == params.phi:
+
+def _strap(half: HalfWedge, params: RotationalParams) -> Fold:
+    opened, whole = slit.assemble(half), rosette.assemble(half)
+    mouth = opened.flat[opened.seams[-1, 0]]
+    if rosette.is_inside_out(whole):
+        mouth = mouth * np.array([1.0, -1.0])
+    fold, form = _closed(whole, params), FoldedForm(whole.spatial)
+    return strap.cut(fold, form, mouth, params.n, params.strap)
+
+
+def _facts(folding: Motion | None) -> dict[str, object]:
+    if folding is None:
         return {}
-    try:
-        half = rosette.HalfWedge.of(strip.solve(params.n, near, dict(params.points)))
-    except ImpossibleGeometry:  # the form exists at its very end alone
-        return {}
-    ajar = rose.moved(half).fold_angles
-    moves = np.abs(ajar) < 180 - CLOSED_DEG
-    pairs, signs = rose.edge_origins[moves].tolist(), np.sign(ajar[moves])
-    return {(a, b): int(sign) for (a, b), sign in zip(pairs, signs, strict=True)}
+    return {"along-arc": {"folding_rate": 100 * folding.reach, "stops": folding.reason}}
+
+
+def _motions(rose: Rosette, solved: Strip, params: RotationalParams) -> Iterator[Motion]:
+    yield unfold.motion(rose, params.n, params.phi, params.points)
+    if isinstance(rose, SlitRosette):
+        yield slit.motion(rose, solved, _branches(params))
+
+
+def _branches(params: RotationalParams) -> dict[int, int]:
+    return {i: point.branch for i, point in params.points.items() if i >= 2}
 
 
 def free_phi(params: RotationalParams) -> dict[str, object]:
@@ -80,6 +126,19 @@ def free_phi(params: RotationalParams) -> dict[str, object]:
         "free_deg": [list(span) for span in free_intervals(params.n, params.points)],
         "looked_at_every_deg": STEP_DEG,
     }
+
+
+def flat_foldability(params: RotationalParams) -> dict[str, object]:
+    """Report whether the form, cut along p_0-p_2-p_4-…, folds flat along the arc.
+
+    Raises InvalidParameters and ImpossibleGeometry as ``generate`` does.
+    """
+    solved = strip.solve(params.n, params.phi, dict(params.points))
+    rose = rosette.assemble(rosette.HalfWedge.of(solved))
+    branches = _branches(params)
+    places = partial(along_arc.meridians, solved, branches)
+    front = -1 if rosette.is_inside_out(rose) else 1
+    return closing.report(closing.Closing(rose, branches, places, 0, front))
 
 
 # Chosen by eye from seeded random forms that pass through nothing; none needs a sheet over 260 mm.
@@ -98,9 +157,10 @@ DESIGN = Design(
     params=RotationalParams,
     generate=generate,
     presets=PRESETS,
-    reports={"free-phi": free_phi},
+    reports={"flat-foldability": flat_foldability, "free-phi": free_phi},
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 3",),
 )
+DESIGN = replace(DESIGN, batch=many.batch_of(DESIGN, many_rosettes.prepare))
 
 
 @hookimpl

@@ -35,6 +35,7 @@ def test_only_the_spine_of_a_book_turns_and_by_the_angle_of_its_covers() -> None
     assert table.angles[:, 0] == pytest.approx([180, 135, 90, 0])
     assert table.angles[:, 1:] == pytest.approx(np.full((4, 2), 180.0))
     assert table.times.tolist() == times
+    assert table.names == ("0-3 F", "0-2 F", "0-4 F")
 
 
 def test_a_corner_of_the_sheet_has_no_creases() -> None:

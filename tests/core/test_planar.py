@@ -69,3 +69,37 @@ def test_the_face_left_and_right_of_an_edge_is_told_apart() -> None:
     faces = np.array([[0, 1, 2], [0, 2, 3]])
     edges = np.array([[0, 2], [2, 0], [0, 1], [1, 0]])
     assert planar.edge_faces(edges, faces).tolist() == [[1, 0], [0, 1], [0, -1], [-1, 0]]
+
+
+def test_an_edge_drawn_both_ways_is_one_pair() -> None:
+    pairs, first = planar.unique_pairs(np.array([[7, 2], [0, 3], [2, 7], [3, 0], [1, 1]]))
+    assert pairs.tolist() == [[0, 3], [1, 1], [2, 7]]
+    assert first.tolist() == [1, 4, 0]
+    assert len(planar.unique_pairs(np.zeros((0, 2), np.intp))[0]) == 0
+
+
+def test_of_two_faces_with_the_same_side_the_last_has_it() -> None:
+    faces = np.array([[0, 1, 2], [3, 0, 1]])
+    assert planar.edge_faces(np.array([[0, 1], [1, 3]]), faces).tolist() == [[1, -1], [1, -1]]
+    assert planar.edge_faces(np.array([[0, 1]]), np.zeros((0, 3), np.intp)).tolist() == [[-1, -1]]
+    assert planar.edge_faces(np.zeros((0, 2), np.intp), faces).shape == (0, 2)
+
+
+@pytest.mark.parametrize(
+    ("edges", "faces", "said"),
+    [
+        ([[0, 1], [1, 2], [2, 0]], [[0, 1, 2]], None),
+        ([[0, 1], [1, 2]], [[0, 1, 2]], "face 0 has the side 2-0, which is no edge"),
+        (
+            [[0, 1], [1, 2], [2, 0], [1, 3], [3, 0]],
+            [[0, 1, 2], [0, 1, 3]],
+            "face 1 overlaps another face along the edge 0-1",
+        ),
+        ([[0, 1]], [], None),
+    ],
+)
+def test_a_fault_of_faces_and_edges_is_named(
+    edges: list[list[int]], faces: list[list[int]], said: str | None
+) -> None:
+    found = planar.topology_fault(np.array(edges), np.array(faces, np.intp).reshape(-1, 3))
+    assert found == said

@@ -17,7 +17,7 @@ from foldmill_plugins.six_crease import DESIGN, freedoms, solve
 from foldmill_plugins.six_crease.params import HeightPoint, SixCreaseParams, points_of
 
 SHAPES = pytest.mark.parametrize("name", DESIGN.presets)
-DESIGNS = 1500
+DESIGNS = 2100
 
 
 def space(fold: Fold) -> np.ndarray:
@@ -57,7 +57,7 @@ def test_spheres_and_planes_find_the_same_points_and_miss_the_same_ones(block: i
         worst = max(worst, float(np.abs(quick - slow).max() / np.abs(quick).max()))
         found += 1
     assert worst <= 1e-12
-    assert found >= 200
+    assert found >= 340
     assert missed >= 100
 
 
@@ -244,24 +244,24 @@ NINE = DESIGN.preset("vase").model_dump()["points"]
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"n": 2}, r"n: Input should be greater than or equal to 3 \(got 2\)"),
-        ({"n": 6.5}, "n: Input should be a valid integer"),
-        ({"w": 0}, "w: Input should be greater than 0"),
-        ({"w": -3}, "w: Input should be greater than 0"),
-        ({"w": float("inf")}, "w: Input should be a finite"),
-        ({"phi": -0.1}, "phi: Input should be greater than or equal to 0"),
-        ({"phi": 180.1}, "phi: Input should be less than or equal to 180"),
-        ({"phi": float("nan")}, "phi: Input should be"),
-        ({"beta": float("nan")}, "beta: Input should be a finite"),
-        ({"L": -1}, "L: Input should be greater than or equal to 0"),
-        ({"L": float("nan")}, "L: Input should be"),
-        ({"tab": -1}, "tab: Input should be greater than or equal to 0"),
+        ({"n": 2}, r"n must be at least 3, not 2"),
+        ({"n": 6.5}, "n must be a whole number"),
+        ({"w": 0}, "w must be more than 0"),
+        ({"w": -3}, "w must be more than 0"),
+        ({"w": float("inf")}, "w must be a finite"),
+        ({"phi": -0.1}, "phi must be at least 0"),
+        ({"phi": 180.1}, "phi must be at most 180"),
+        ({"phi": float("nan")}, "phi must be"),
+        ({"beta": float("nan")}, "beta must be a finite"),
+        ({"L": -1}, "L must be at least 0"),
+        ({"L": float("nan")}, "L must be"),
+        ({"tab": -1}, "tab must be at least 0"),
         ({"tab": 1e-9}, "A glue tab 1e-09 mm wide holds nothing; make it wider"),
-        ({"w": 10001}, "w: Input should be less than or equal to 10000"),
-        ({"L": 10001}, "L: Input should be less than or equal to 10000"),
-        ({"beta": 361}, "beta: Input should be less than or equal to 360"),
-        ({"points": FOUR | {4: {"y": 1e5}}}, r"points\.4\.y: Input should be less than"),
-        ({"taper": 76}, "taper: Input should be less than or equal to 75"),
+        ({"w": 10001}, "w must be at most 10000"),
+        ({"L": 10001}, "L must be at most 10000"),
+        ({"beta": 361}, "beta must be at most 360"),
+        ({"points": FOUR | {4: {"y": 1e5}}}, r"points\.4\.y must be at most 10000 mm"),
+        ({"taper": 76}, "taper must be at most 75"),
         ({"points": {}}, "points: a tube needs points 1 to 4 .* not 0 of them"),
         (
             {"points": {i: FOUR[i] for i in (1, 2, 3)}},
@@ -276,10 +276,10 @@ NINE = DESIGN.preset("vase").model_dump()["points"]
             r"point 3 must lie above point 1 on its line: points\.3\.y = 5 mm, but points\.1\.y",
         ),
         ({"points": FOUR | {4: {"y": 9.0}}}, "point 4 must lie above point 2 on its line"),
-        ({"points": FOUR | {2: {"y": float("nan")}}}, r"points\.2\.y: Input should be a finite"),
-        ({"points": FOUR | {3: {"y": 15, "branch": 0}}}, r"points\.3\.branch: .* -1 or 1"),
-        ({"points": FOUR | {3: {"y": 15, "branch": 2}}}, r"points\.3\.branch: .* -1 or 1"),
-        ({"points": FOUR | {3: {"branch": 1}}}, r"points\.3\.y: Field required"),
+        ({"points": FOUR | {2: {"y": float("nan")}}}, r"points\.2\.y must be a finite"),
+        ({"points": FOUR | {3: {"y": 15, "branch": 0}}}, r"points\.3\.branch must be -1 or 1"),
+        ({"points": FOUR | {3: {"y": 15, "branch": 2}}}, r"points\.3\.branch must be -1 or 1"),
+        ({"points": FOUR | {3: {"branch": 1}}}, r"points\.3\.y is missing"),
     ],
 )
 def test_wrong_parameters_are_refused_by_name(values: dict[str, Any], sentence: str) -> None:

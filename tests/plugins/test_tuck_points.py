@@ -8,6 +8,7 @@ import pytest
 from foldmill import Fold, InvalidParameters
 from foldmill.axisymmetric.points import FreePoint, LinePoint
 from foldmill.handle import Handle, Plane, Space
+from foldmill.tolerances import HANDLE_GAP_MM
 from foldmill_plugins.tuck import DESIGN
 from foldmill_plugins.tuck.classify import Kind, State, states
 from foldmill_plugins.tuck.params import TuckParams
@@ -157,9 +158,11 @@ def test_a_point_on_its_line_becomes_free_when_dragged_in_its_plane() -> None:
 
 def test_a_handle_stops_at_what_limits_it() -> None:
     handles = named(DESIGN.run(STOOL))
-    inner = handles["points.3.a"].drag(STOOL, np.zeros(2)).points[3]
-    assert isinstance(inner, LinePoint)
-    assert 110 < inner.a < 110.01
+    inner, outer = (handles["points.3.a"].drag(STOOL, np.array([x, 0.0])) for x in (0, 900))
+    assert inner.points[3].a == 110 + HANDLE_GAP_MM
+    assert outer.points[3].a == 265.2 - HANDLE_GAP_MM
+    foot = handles["points.6.a"].drag(STOOL, np.zeros(2)).points[6]
+    assert foot.a == pytest.approx(191.598 + HANDLE_GAP_MM, abs=1e-3)
     for far in (0.0, 500.0):
         (tuck,) = handles["tucks.0.t"].drag(STOOL, far * handles["tucks.0.t"].locus.along).tucks  # type: ignore[union-attr]
         assert tuck.t is not None

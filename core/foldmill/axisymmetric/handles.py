@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.axisymmetric.rosette import Rosette
-from foldmill.design import Fold
+from foldmill.design import MOST_MM, Fold
+from foldmill.errors import InvalidParameters
 from foldmill.handle import Circle, Handle, Line, Space
+from foldmill.tolerances import HANDLE_GAP_MM
 
 Floats = NDArray[np.float64]
 
-LEAST_STEP = 1.0
-"""mm that a dragged point keeps from its neighbours on the line: nobody folds less."""
+FARTHEST_MM = MOST_MM - HANDLE_GAP_MM
+"""mm. As far out as a handle brings anything."""
 
 
 def handles(fold: Fold, rose: Rosette, params: Any) -> tuple[Handle, ...]:
@@ -33,7 +35,7 @@ def handles(fold: Fold, rose: Rosette, params: Any) -> tuple[Handle, ...]:
     for i, point in params.points.items():
         if isinstance(point, LinePoint):
             found.append(_along_line(fold, rose, i))
-            if point.gamma is not None:
+            if point.gamma is not None and i > 1:  # P_1 turns by φ
                 found.append(_turning(rose, i))
     if fold.folded is not None:
         found.append(_opening(rose))
@@ -47,30 +49,39 @@ def _vertex(rose: Rosette, point: int) -> int:
 
 
 def _along_line(fold: Fold, rose: Rosette, i: int) -> Handle:
-    spot = fold.pattern.vertices[_vertex(rose, i)]
+    spots = fold.pattern.vertices
+    inner = spots[_vertex(rose, i - 2)] if i > 2 else np.zeros(2)
+    return along_line(i, spots[_vertex(rose, i)], inner)
+
+
+def along_line(i: int, spot: Floats, inner: Floats) -> Handle:
+    """Return the handle ``points.i.a``: point i along its line in the pattern.
+
+    spot, inner : (2,) mm, where point i and point i-2 (or the centre) are in the pattern. It stops
+    short of both neighbours on its line; where the inner one lies beside it, short of its foot.
+    """
     locus = Line(np.zeros(2), spot / np.hypot(*spot))
-    return Handle(
-        f"points.{i}.a",
-        f"Point {i} along its line",
-        Space.PATTERN,
-        spot,
-        locus,
-        partial(_drag_along, i, locus),
-    )
+    drag = partial(_drag_along, i, locus, float(inner @ locus.along))
+    return Handle(f"points.{i}.a", f"Point {i} along its line", Space.PATTERN, spot, locus, drag)
 
 
-def _drag_along(i: int, locus: Line, params: Any, point: Floats) -> Any:
+def _drag_along(i: int, locus: Line, foot: float, params: Any, point: Floats) -> Any:
+    if not isinstance(params.points[i], LinePoint):
+        raise InvalidParameters(f"Point {i} is placed by hand; drag it in its plane.")
     wanted = float((np.asarray(point, float) - locus.origin) @ locus.along)
-    low, high = _room(params, i)
+    low, high = _room(params.points, i, foot)
     return _changed(params, i, a=float(np.clip(wanted, low, high)))
 
 
-def _room(params: Any, i: int) -> tuple[float, float]:
-    """Return between which distances a point may lie, by its neighbours on the same line."""
-    inner, outer = params.points.get(i - 2), params.points.get(i + 2)
-    low = (inner.a if isinstance(inner, LinePoint) else 0.0) + LEAST_STEP
-    high = outer.a - LEAST_STEP if isinstance(outer, LinePoint) else np.inf
-    return low, max(low, high)
+def _room(points: Any, i: int, foot: float) -> tuple[float, float]:
+    """Return between which distances a point may lie, by its neighbours on the same line.
+
+    One that is nearer to a neighbour than a handle brings it may stay there.
+    """
+    here, inner, outer = points[i].a, points.get(i - 2), points.get(i + 2)
+    low = inner.a if isinstance(inner, LinePoint) else foot
+    high = outer.a - HANDLE_GAP_MM if isinstance(outer, LinePoint) else FARTHEST_MM
+    return min(here, low + HANDLE_GAP_MM), max(here, high)
 
 
 def _opening(rose: Rosette) -> Handle:

@@ -22,6 +22,7 @@ from foldmill.design import Fold, Symmetry
 from foldmill.folded import FoldedForm, assign, fold_angles
 from foldmill.pattern import CreasePattern
 from foldmill.tolerances import DISH
+from foldmill.vectors import cross
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -121,6 +122,16 @@ class Rosette:
         """(E,) deg, seen from above; near ±180 the sign is noise."""
         return fold_angles(self.spatial, self.edges, self.faces, self.edge_faces)
 
+    @property
+    def seams(self) -> Indices:
+        """(S, 2) vertices that are two in the pattern and one in the closed form."""
+        return np.zeros((0, 2), np.intp)
+
+    @property
+    def rim(self) -> Indices:
+        """The vertices of the outline, ascending."""
+        return np.unique(self.edges[(self.edge_faces < 0).any(axis=1)])
+
     @cached_property
     def edge_origins(self) -> Indices:
         """(E, 2) the two points of the half wedge behind each edge, ascending."""
@@ -164,18 +175,20 @@ def weld(kind: type[AnyRosette], half: HalfWedge, key_of: Key) -> AnyRosette:
     key_of : (point, seat, turn, whether mirrored, N) → (point, turn, whether mirrored)
     """
     index: dict[VertexKey, int] = {}
-    faces: list[tuple[int, ...]] = []
+    used = list(dict.fromkeys(half.faces.ravel().tolist()))
+    number = np.zeros(len(half.seats), np.intp)
+    copies: list[Indices] = []
     for turn in range(half.order):
         for mirrored in (False, True):
-            for face in half.faces.tolist():
-                keys = [key_of(p, half.seats[p], turn, mirrored, half.order) for p in face]
-                corners = [index.setdefault(key, len(index)) for key in keys]
-                faces.append(tuple(corners[::-1] if mirrored else corners))
-    every_face = np.array(faces, np.intp)
-    sides, _ = planar.face_sides(every_face)
+            for point in used:
+                key = key_of(point, half.seats[point], turn, mirrored, half.order)
+                number[point] = index.setdefault(key, len(index))
+            corners = number[half.faces]
+            copies.append(corners[:, ::-1] if mirrored else corners)
+    faces = np.concatenate(copies)
+    edges, _ = planar.unique_pairs(planar.face_sides(faces)[0])
     origin, turns, mirrors = (np.array(column) for column in zip(*index, strict=True))
-    edges = np.unique(np.sort(sides, axis=1), axis=0)
-    return kind(half, edges, every_face, origin, turns, mirrors.astype(bool))
+    return kind(half, edges, faces, origin, turns, mirrors.astype(bool))
 
 
 def fold(rose: Rosette, closed: EdgeSigns | None = None, *, wedge_decides: bool) -> Fold:
@@ -185,7 +198,7 @@ def fold(rose: Rosette, closed: EdgeSigns | None = None, *, wedge_decides: bool)
     numbers of their two points in the half wedge.
     wedge_decides : whether the half wedge alone decides about penetration (false with tucks).
     """
-    signs = np.array([(closed or {}).get((int(a), int(b)), 0) for a, b in rose.edge_origins])
+    signs = _signs(rose, closed or {})
     measured, flat, faces, around = rose.fold_angles, rose.flat, rose.faces, rose.edge_faces
     if is_inside_out(rose):
         # Look at the sheet from its other face: the pattern mirrors, every fold changes its sign.
@@ -196,12 +209,22 @@ def fold(rose: Rosette, closed: EdgeSigns | None = None, *, wedge_decides: bool)
     half = rose.half
     wedge = np.arange(len(half.faces))
     symmetry = Symmetry(half.order, wedge, half.one_sided and wedge_decides)
-    return Fold(pattern, FoldedForm(rose.spatial), symmetry)
+    return Fold(pattern, FoldedForm(rose.spatial, rose.seams), symmetry)
+
+
+def _signs(rose: Rosette, closed: EdgeSigns) -> Indices:
+    """Return the sign (E,) stated of every edge, 0 where none is."""
+    table = np.zeros((len(rose.half.seats),) * 2, np.intp)
+    for ends, sign in closed.items():
+        table[ends] = sign
+    first, last = rose.edge_origins.T
+    signs: Indices = table[first, last]
+    return signs
 
 
 def is_inside_out(rose: Rosette) -> bool:
     """Tell whether the upper side of the sheet is the inside of the dished form."""
-    rim = np.unique(rose.edges[(rose.edge_faces < 0).any(axis=1)])
-    corners = (rose.spatial - rose.spatial[rim].mean(axis=0))[rose.faces]
-    volume = float(np.linalg.det(corners).sum()) / 6
+    spots = rose.spatial - rose.spatial[rose.rim].mean(axis=0)
+    a, b, c = (spots[rose.faces[:, k]] for k in range(3))
+    volume = float((a * cross(b, c)).sum()) / 6
     return volume < -(DISH * float(np.abs(rose.spatial).max()) ** 3)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,7 +47,7 @@ class Strip:
         """Θ = π/N, rad."""
         return float(np.pi / self.order)
 
-    @property
+    @cached_property
     def spatial(self) -> Floats:
         """(T+1, 3) the points in space: odd ones at azimuth 0, even ones at Θ."""
         azimuth = np.where(np.arange(len(self.meridian)) % 2 == 0, self.theta, 0.0)
@@ -80,8 +81,7 @@ def solve(
     if not isinstance(first, LinePoint):
         raise InvalidParameters("Point 1 lies on its line; it is moved by a and φ, not by r and z.")
     flat[1] = (first.a, 0.0)
-    tilt = np.radians(phi)
-    meridian[1] = first.a * np.array([_sine(phi), np.cos(tilt) if phi != 90 else 0.0])
+    meridian[1] = first_point(first.a, phi)
     _refuse_near(1, flat)
     off_line: list[int] = []
     crossing: list[int] = []
@@ -115,6 +115,11 @@ def _refuse_near(i: int, flat: Floats) -> None:
             )
 
 
+def first_point(a: float, phi: float) -> Floats:
+    """Return P_1 as (r, z), mm, for its distance a from the centre and φ in deg."""
+    return a * np.array([_sine(phi), np.cos(np.radians(phi)) if phi != 90 else 0.0])
+
+
 def _sine(degrees: float) -> float:
     return 0.0 if degrees in {0, 180} else float(np.sin(np.radians(degrees)))
 
@@ -144,13 +149,9 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
 
 
 def _place(i: int, point: LinePoint, flat: Floats, meridian: Floats, theta: float) -> Floats:
-    base, across = flat[i - 2], flat[i - 1]
-    d = float(np.hypot(*(flat[i] - base)))
-    c = float((across - base) @ (flat[i] - base)) / d
-    paper = Paper(d, c, abs(_turn(base, flat[i], across)) / d, float(np.abs(flat).max()))
     remedy = f"Bring point {i - 1} nearer to the axis, or move it outwards in the pattern."
-    side = Side(point.branch, point.gamma)
-    return place(i, paper, side, meridian[i - 2 : i], theta, remedy)
+    side, before = Side(point.branch, point.gamma), meridian[i - 2 : i]
+    return place(i, Paper.of(flat, i), side, before, theta, remedy)
 
 
 @dataclass(frozen=True)
@@ -165,6 +166,14 @@ class Paper:
     """Distance of p_{i-1} from the line of that side."""
     size: float
     """The largest coordinate of the pattern, against which rounding is measured."""
+
+    @classmethod
+    def of(cls, flat: Floats, i: int) -> Paper:
+        """Return the triangle (i-2, i-1, i) of points p_0 … p_T (T+1, 2), mm."""
+        base, across = flat[i - 2], flat[i - 1]
+        d = float(np.hypot(*(flat[i] - base)))
+        c = float((across - base) @ (flat[i] - base)) / d
+        return cls(d, c, abs(_turn(base, flat[i], across)) / d, float(np.abs(flat).max()))
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.axisymmetric.along_arc import in_space
 from foldmill.axisymmetric.rosette import HalfWedge, Rosette, Seat, VertexKey, weld
 from foldmill.folded import FoldedForm, fold_pattern
 from foldmill.pattern import CreasePattern
@@ -56,13 +58,6 @@ def half_wedge(order: int, flat: Floats, meridian: Floats) -> HalfWedge:
     return HalfWedge(order, flat, spatial, seats, np.array(faces, np.intp), one_sided)
 
 
-def in_space(meridian: Floats, theta: float) -> Floats:
-    """Return P_1 … P_T (T, 3) from (r, z) (T, 2): odd ones at azimuth 0, even ones at theta rad."""
-    azimuth = np.where(np.arange(len(meridian)) % 2 == 1, theta, 0.0)
-    r, z = meridian.T
-    return np.column_stack([r * np.cos(azimuth), r * np.sin(azimuth), z])
-
-
 def assemble(half: HalfWedge) -> Tube:
     """Weld N copies side by side; the first and the last l2 stay apart."""
     return weld(Tube, half, _key)
@@ -104,11 +99,26 @@ class Sheet:
         outwards = float((corners.mean(axis=1) * normal)[:, :2].sum())
         return outwards < -(DISH * float(np.abs(self.spatial).max()) ** 3)
 
-    def finish(self) -> tuple[CreasePattern, FoldedForm]:
-        """Return pattern and folded form, the front on the outside."""
+    def finish(self, closed: Indices) -> tuple[CreasePattern, FoldedForm]:
+        """Return pattern and folded form, the front on the outside.
+
+        closed : the signs of the first edges, seen from above, where they fold to ±180.
+        """
         flat, faces = self.flat, self.faces
+        signs = np.zeros(len(self.edges), np.intp)
+        signs[: len(closed)] = closed
         if self.is_inside_out:
-            flat, faces = flat * np.array([-1.0, 1.0]), faces[:, ::-1]
-        unsigned = np.zeros(len(self.edges), int)
-        pattern, form = fold_pattern(flat, self.spatial, self.edges, faces, unsigned)
+            flat, faces, signs = flat * np.array([-1.0, 1.0]), faces[:, ::-1], -signs
+        pattern, form = fold_pattern(flat, self.spatial, self.edges, faces, signs)
         return pattern, replace(form, seams=self.seams)
+
+
+class Glued(Protocol):
+    """A sheet with paper along its seam that closes the tube: tabs, or an overlap."""
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet with that paper; old vertices keep their numbers."""
+
+    def carry(self, spatial: Floats) -> Floats:
+        """Return old vertices (V, 3) of a form on its way, followed by the new ones."""

@@ -2,12 +2,14 @@
 
 ``check(fold)`` runs every rule of this package over a fold and returns their findings and figures.
 A rule never raises for what it finds. What needs the folded form is "not checked" without one.
+``flat_foldability`` is asked for by itself: a form in space need not fold flat.
 """
 
 from __future__ import annotations
 
 from foldmill.check.assignment import assignment
 from foldmill.check.developability import developability
+from foldmill.check.flat_foldability import flat_foldability
 from foldmill.check.isometry import isometry
 from foldmill.check.penetration import penetration
 from foldmill.check.planarity import planarity
@@ -25,6 +27,7 @@ __all__ = [
     "assignment",
     "check",
     "developability",
+    "flat_foldability",
     "isometry",
     "penetration",
     "planarity",

@@ -11,6 +11,7 @@ from foldmill.finding import Finding, Severity
 from foldmill.folded import FoldedForm, fold_angles
 from foldmill.pattern import Assignment, CreasePattern, Flags, Floats
 from foldmill.tolerances import CLOSED_DEG
+from foldmill.vectors import lengths
 
 _TURN = 360.0
 
@@ -67,7 +68,8 @@ def _unsigned(pattern: CreasePattern, edges: Flags) -> tuple[Finding, ...]:
 
 
 def _angles(pattern: CreasePattern, measured: Floats, limit: float) -> Report:
-    stated = np.isin(pattern.assignments, (Assignment.M, Assignment.V, Assignment.F))
+    codes = pattern.assignments
+    stated = (codes == Assignment.M) | (codes == Assignment.V) | (codes == Assignment.F)
     turn = measured - pattern.fold_angles
     # Near ±180 the sign is noise, so angles are compared round the circle.
     gaps = np.where(stated, np.abs((turn + _TURN / 2) % _TURN - _TURN / 2), 0.0)
@@ -96,7 +98,7 @@ def _seams(folded: FoldedForm, limit: float) -> Report:
     if not len(folded.seams):
         return Report((), {"seams": 0, "seam_gap_mm": 0.0})
     ends = folded.vertices[folded.seams]
-    gaps = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    gaps = lengths(ends[:, 1] - ends[:, 0])
     worst = int(gaps.argmax())
     figures: dict[str, Figure] = {
         "seams": len(gaps),

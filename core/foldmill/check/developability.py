@@ -13,6 +13,7 @@ from foldmill.check.report import Figure, Report, not_checked, vertex_name
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import CreasePattern, Floats, Indices
+from foldmill.vectors import cross, lengths
 
 
 def angle_sums(points: Floats, faces: Indices) -> Floats:
@@ -22,12 +23,10 @@ def angle_sums(points: Floats, faces: Indices) -> Floats:
     """
     solid = np.zeros((len(points), 3))
     solid[:, : points.shape[1]] = points
-    sums = np.zeros(len(points))
-    for k in range(3):
-        corner, after, before = (solid[faces[:, (k + j) % 3]] for j in range(3))
-        u, v = after - corner, before - corner
-        sine = np.linalg.norm(np.cross(u, v), axis=1)
-        np.add.at(sums, faces[:, k], np.arctan2(sine, np.einsum("ij,ij->i", u, v)))
+    corner = solid[faces]
+    u, v = corner[:, [1, 2, 0]] - corner, corner[:, [2, 0, 1]] - corner
+    angles = np.arctan2(lengths(cross(u, v)), (u * v).sum(axis=2))
+    sums: Floats = np.bincount(faces.T.ravel(), angles.T.ravel(), len(points)).astype(np.float64)
     return sums
 
 

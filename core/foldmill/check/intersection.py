@@ -13,6 +13,8 @@ than eps off that line brings it back under the rule.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +22,77 @@ from numpy.typing import NDArray
 from foldmill.folded import face_normals
 from foldmill.planar import edge_faces
 from foldmill.tolerances import PENETRATION
+from foldmill.vectors import cross, least, lengths, most, units
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+Signs = NDArray[np.int8]
 
 _BLOCK = 2_000_000
-"""Pairs looked at in one go: about 200 MB."""
+"""Heights over planes looked at in one go: about 50 MB."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Mesh:
+    """Triangles in space, and which of them are of interest."""
+
+    vertices: Floats
+    faces: Indices
+    is_wanted: Flags
+    """(F,) whether a face is of interest."""
+    eps: float
+
+    @cached_property
+    def corners(self) -> Floats:
+        """(F, 3, 3) mm."""
+        return self.vertices[self.faces]
+
+    @cached_property
+    def normals(self) -> Floats:
+        """(F, 3); a facet without area has none."""
+        return face_normals(self.vertices, self.faces)
+
+    @cached_property
+    def offsets(self) -> Floats:
+        """(F,) mm from the origin to each plane, along its normal."""
+        offsets: Floats = np.einsum("fi,fi->f", self.normals, self.corners[:, 0])
+        return offsets
+
+    @cached_property
+    def table(self) -> Signs | None:
+        """(V, F) the signs of all vertices over all planes; None where that is too much."""
+        if len(self.vertices) * len(self.faces) > _BLOCK:
+            return None
+        return self._signs(self.vertices @ self.normals.T - self.offsets)
+
+    def over_all(self, spots: Indices) -> Signs:
+        """Return on which side (n, F) of all faces' planes vertices (n,) are: 1, -1 or 0."""
+        if self.table is not None:
+            return self.table[spots]
+        return self._signs(self.vertices[spots] @ self.normals.T - self.offsets)
+
+    def over_some(self, rows: Indices) -> Signs:
+        """Return on which side (V, k) of the planes of faces (k,) all vertices are."""
+        if self.table is not None:
+            return self.table[:, rows]
+        return self._signs(self.vertices @ self.normals[rows].T - self.offsets[rows])
+
+    def over(self, spots: Indices, rows: Indices) -> Signs:
+        """Return on which side (n,) of the plane of its face (n,) each vertex (n,) is."""
+        if self.table is not None:
+            return self.table[spots, rows]
+        heights = (self.vertices[spots] * self.normals[rows]).sum(axis=-1)
+        return self._signs(heights - self.offsets[rows])
+
+    def _signs(self, heights: Floats) -> Signs:
+        return (heights > self.eps).astype(np.int8) - (heights < -self.eps)
+
+    def blocks(self, rows: Indices, width: int) -> Iterator[Indices]:
+        """Yield the rows in parts whose tables of so many columns fit in memory."""
+        step = max(1, _BLOCK // max(1, width))
+        for start in range(0, len(rows), step):
+            yield rows[start : start + step]
 
 
 def penetrations(
@@ -38,38 +104,48 @@ def penetrations(
     among : faces of interest; only pairs with one of them are looked at (default: all).
     """
     eps = PENETRATION * float(np.ptp(vertices, axis=0).max())
-    wanted = np.arange(len(faces)) if among is None else np.asarray(among, np.intp)
-    near = _near_pairs(vertices, faces, wanted)
-    found = [_crossing(vertices, faces, pairs, eps) for pairs in near]
-    found.append(_along_edges(vertices, edges, faces, wanted, eps))
+    is_wanted = np.full(len(faces), among is None)
+    is_wanted[np.asarray([] if among is None else among, np.intp)] = True
+    mesh = _Mesh(vertices, faces, is_wanted, eps)
+    found = [_crossing(mesh, pairs) for pairs in _straddling(mesh)]
+    found += list(_along_edges(mesh, edges))
+    if not any(len(each) for each in found):
+        return np.zeros((0, 2), np.intp)
     pairs: Indices = np.unique(np.sort(np.vstack(found), axis=1), axis=0)
     return pairs
 
 
-def _near_pairs(vertices: Floats, faces: Indices, wanted: Indices) -> Iterator[Indices]:
-    """Yield the pairs (k, 2) whose boxes overlap and that share no edge."""
-    low, high = vertices[faces].min(axis=1), vertices[faces].max(axis=1)
-    is_wanted = np.isin(np.arange(len(faces)), wanted)
-    step = max(1, _BLOCK // max(1, len(faces)))
-    for start in range(0, len(wanted), step):
-        rows = wanted[start : start + step]
-        apart = np.zeros((len(rows), len(faces)), bool)
-        for k in range(3):
-            apart |= low[rows, None, k] > high[None, :, k]
-            apart |= high[rows, None, k] < low[None, :, k]
-        a, b = np.nonzero(~apart)
+def _straddling(mesh: _Mesh) -> Iterator[Indices]:
+    """Yield the pairs (k, 2) that straddle each other's plane, may meet, and share no edge."""
+    faces = mesh.faces
+    low, high = (bound.reduce(mesh.corners, axis=1) for bound in (np.minimum, np.maximum))
+    for rows in mesh.blocks(np.flatnonzero(mesh.is_wanted), 3 * len(faces)):
+        over = _on_both_sides(*(mesh.over_all(faces[rows, k]) for k in range(3)))
+        if len(rows) == len(faces):
+            under = over
+        else:
+            signs = mesh.over_some(rows)
+            under = _on_both_sides(*(signs[faces[:, k]] for k in range(3)))
+        a, b = np.nonzero(over & under.T)
         a = rows[a]
-        once = (a < b) | ~is_wanted[b]
-        a, b = a[once], b[once]
+        a, b = _kept((a < b) | ~mesh.is_wanted[b], a, b)
+        a, b = _kept(((low[a] <= high[b]) & (high[a] >= low[b])).all(axis=1), a, b)
         shared = (faces[a][:, :, None] == faces[b][:, None, :]).sum(axis=(1, 2))
-        yield np.column_stack([a, b])[shared < 2]
+        yield np.column_stack(_kept(shared < 2, a, b))
 
 
-def _crossing(vertices: Floats, faces: Indices, pairs: Indices, eps: float) -> Indices:
+def _on_both_sides(a: Signs, b: Signs, c: Signs) -> Flags:
+    """Tell of which planes triangles have corners on both sides, by their corners' signs."""
+    both: Flags = np.minimum(np.minimum(a, b), c) < 0
+    both &= np.maximum(np.maximum(a, b), c) > 0
+    return both
+
+
+def _crossing(mesh: _Mesh, pairs: Indices) -> Indices:
     if not len(pairs):
         return pairs
-    corners = vertices[faces]
-    hit: Indices = pairs[cut_lengths(corners[pairs[:, 0]], corners[pairs[:, 1]], eps) > 0]
+    one, two = mesh.corners[pairs[:, 0]], mesh.corners[pairs[:, 1]]
+    hit: Indices = pairs[cut_lengths(one, two, mesh.eps) > 0]
     return hit
 
 
@@ -78,91 +154,81 @@ def cut_lengths(one: Floats, two: Floats, eps: float) -> Floats:
 
     one, two : (n, 3, 3) corners, mm; eps : mm by which they must pass through each other.
     """
-    lengths = np.zeros(len(one))
-    normal_one, normal_two = (_normals(triangles) for triangles in (one, two))
+    found = np.zeros(len(one))
+    normal_one, normal_two = triangle_normals(one), triangle_normals(two)
     height_two = np.einsum("nij,nj->ni", two - one[:, :1], normal_one)
     height_one = np.einsum("nij,nj->ni", one - two[:, :1], normal_two)
-    both = _straddles(height_one, eps) & _straddles(height_two, eps)
-    line = np.cross(normal_one[both], normal_two[both])
-    line /= np.linalg.norm(line, axis=1, keepdims=True)
+    both = np.flatnonzero(_straddles(height_one, eps) & _straddles(height_two, eps))
+    if not len(both):
+        return found
+    line = units(cross(normal_one[both], normal_two[both]))
     low_one, high_one = _span(one[both], height_one[both], line)
     low_two, high_two = _span(two[both], height_two[both], line)
     overlap = np.minimum(high_one, high_two) - np.maximum(low_one, low_two)
-    lengths[both] = np.where(overlap > eps, overlap, 0.0)
-    return lengths
+    found[both] = np.where(overlap > eps, overlap, 0.0)
+    return found
 
 
-def _normals(triangles: Floats) -> Floats:
+def triangle_normals(triangles: Floats) -> Floats:
     """Return the unit normals (n, 3) of triangles (n, 3, 3); a facet without area has none."""
-    return face_normals(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    first = triangles[:, 0]
+    return units(cross(triangles[:, 1] - first, triangles[:, 2] - first))
 
 
 def _straddles(heights: Floats, eps: float) -> Flags:
-    flags: Flags = (heights.min(axis=1) < -eps) & (heights.max(axis=1) > eps)
+    """Tell which triangles, by their corners' heights (n, 3), are on both sides of a plane."""
+    flags: Flags = (least(heights) < -eps) & (most(heights) > eps)
     return flags
 
 
 def _span(triangles: Floats, heights: Floats, line: Floats) -> tuple[Floats, Floats]:
     """Return where the triangles' cut with the other plane begins and ends along ``line``."""
     along = np.einsum("nij,nj->ni", triangles, line)
-    after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
+    after, along_after = heights[:, [1, 2, 0]], along[:, [1, 2, 0]]
     crosses = (heights * after < 0) | (heights == 0)
     share = heights / np.where(heights == after, 1.0, heights - after)
     spots = along + share * (along_after - along)
-    return (
-        np.where(crosses, spots, np.inf).min(axis=1),
-        np.where(crosses, spots, -np.inf).max(axis=1),
-    )
+    return least(np.where(crosses, spots, np.inf)), most(np.where(crosses, spots, -np.inf))
 
 
-def _along_edges(
-    vertices: Floats, edges: Indices, faces: Indices, wanted: Indices, eps: float
-) -> Indices:
-    """Find faces through which a sheet passes exactly along one of its own creases."""
-    around = edge_faces(edges, faces)
-    inner = np.flatnonzero((around >= 0).all(axis=1))
-    hits: list[tuple[int, int]] = []
-    normals = face_normals(vertices, faces)
-    is_wanted = np.isin(np.arange(len(faces)), wanted)
-    height = vertices @ normals.T - np.einsum("fi,fi->f", normals, vertices[faces[:, 0]])
-    for block in np.array_split(inner, max(1, len(inner) * len(faces) // _BLOCK)):
-        in_plane = (np.abs(height[edges[block]]) <= eps).all(axis=1)
-        left, right = (_third_height(height, edges, faces, block, around[block, k]) for k in (0, 1))
-        passes = in_plane & (np.minimum(left, right) < -eps) & (np.maximum(left, right) > eps)
-        for edge, face in zip(*np.nonzero(passes), strict=True):
-            own = around[block[edge]]
-            if face in own or not (is_wanted[face] or is_wanted[own].any()):
-                continue
-            if _length_inside(vertices[edges[block[edge]]], vertices[faces[face]], eps) > eps:
-                hits += [(int(face), int(own[0])), (int(face), int(own[1]))]
-    return np.array(hits, np.intp).reshape(-1, 2)
+def _along_edges(mesh: _Mesh, edges: Indices) -> Iterator[Indices]:
+    """Yield faces (k, 2) through which a sheet passes exactly along one of its own creases."""
+    around = edge_faces(edges, mesh.faces)
+    inner = np.flatnonzero((around[:, 0] >= 0) & (around[:, 1] >= 0))
+    for block in mesh.blocks(inner, len(mesh.faces)):
+        (first, last), own = edges[block].T, around[block]
+        lies = (mesh.over_all(first) == 0) & (mesh.over_all(last) == 0)
+        asked: Flags = mesh.is_wanted[own[:, 0]] | mesh.is_wanted[own[:, 1]]
+        lies &= mesh.is_wanted | asked[:, None]
+        lies[np.arange(len(block))[:, None], own] = False
+        row, face = np.nonzero(lies)
+        left, right = (mesh.faces[own].sum(axis=2) - (first + last)[:, None]).T
+        passes = mesh.over(left[row], face) * mesh.over(right[row], face) < 0
+        row, face = _kept(passes, row, face)
+        if len(row):
+            inside = _lengths_inside(mesh.vertices[edges[block[row]]], mesh.corners[face], mesh.eps)
+            row, face = _kept(inside > mesh.eps, row, face)
+        yield np.column_stack([np.repeat(face, 2), own[row].ravel()])
 
 
-def _third_height(
-    height: Floats, edges: Indices, faces: Indices, block: Indices, own: Indices
-) -> Floats:
-    """Return over each face's plane the height of the corner of ``own`` that is not on the edge."""
-    corners = faces[own]
-    is_end = (corners[:, :, None] == edges[block][:, None, :]).any(axis=2)
-    third = corners[~is_end]
-    above: Floats = height[third]
-    return above
+def _kept(flags: Flags, a: Indices, b: Indices) -> tuple[Indices, Indices]:
+    return a[flags], b[flags]
 
 
-def _length_inside(segment: Floats, triangle: Floats, eps: float) -> float:
-    """Return the length of a segment in a triangle's plane that lies inside by more than eps."""
-    start, step = segment[0], segment[1] - segment[0]
-    normal = np.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])
-    low, high = 0.0, 1.0
-    for k in range(3):
-        side = triangle[(k + 1) % 3] - triangle[k]
-        inward = np.cross(normal, side)
-        inward /= np.linalg.norm(inward)
-        offset, slope = float((start - triangle[k]) @ inward) - eps, float(step @ inward)
-        if abs(slope) <= eps:
-            if offset <= 0:
-                return 0.0
-            continue
-        limit = -offset / slope
-        low, high = (max(low, limit), high) if slope > 0 else (low, min(high, limit))
-    return max(0.0, high - low) * float(np.linalg.norm(step))
+def _lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
+    """Return the lengths (n,) of segments (n, 2, 3), each in the plane of a triangle, inside it.
+
+    triangles : (n, 3, 3) mm; eps : mm by which to keep away from their sides.
+    """
+    start, step = segments[:, 0], segments[:, 1] - segments[:, 0]
+    sides = triangles[:, [1, 2, 0]] - triangles
+    inward = units(cross(triangle_normals(triangles)[:, None], sides))
+    offset = ((start[:, None] - triangles) * inward).sum(axis=2) - eps
+    slope = (step[:, None] * inward).sum(axis=2)
+    level = np.abs(slope) <= eps
+    limit = -offset / np.where(level, 1.0, slope)
+    low = np.where(~level & (slope > 0), limit, 0.0).max(axis=1, initial=0.0)
+    high = np.where(~level & (slope < 0), limit, 1.0).min(axis=1, initial=1.0)
+    outside = (level & (offset <= 0)).any(axis=1)
+    share: Floats = np.where(outside, 0.0, np.maximum(0.0, high - low))
+    return share * lengths(step)

@@ -8,6 +8,7 @@ from foldmill.check.limits import limits
 from foldmill.check.report import Figure, Report, counted, edge_name, not_checked
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
+from foldmill.vectors import lengths
 
 
 def isometry(fold: Fold) -> Report:
@@ -18,7 +19,7 @@ def isometry(fold: Fold) -> Report:
     if not len(pattern.edges):
         return Report((), {"isometry": 0.0, "isometry_edge": "none"})
     ends = fold.folded.vertices[pattern.edges]
-    change = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - pattern.edge_lengths
+    change = lengths(ends[:, 1] - ends[:, 0]) - pattern.edge_lengths
     share = np.abs(change) / pattern.size
     worst = int(share.argmax())
     limit = limits(fold).isometry

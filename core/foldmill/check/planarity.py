@@ -2,6 +2,9 @@
 
 Edges meet only in vertices; every vertex is one point; the boundary is one simple polygon. Together
 with faces that run counter-clockwise this leaves no paper upon paper.
+
+A slit has no width: its banks lie upon each other. The pattern is looked at with its slits sewn up,
+so that they are inner cuts and the outline goes past their mouths.
 """
 
 from __future__ import annotations
@@ -10,12 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldmill import planar
+from foldmill import planar, sweep
 from foldmill.check.report import Figure, Report, counted, edge_name, vertex_name
 from foldmill.design import Fold
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import Assignment, CreasePattern, Flags, Floats, Indices
+from foldmill.slits import Sewn, sewn
 from foldmill.tolerances import COINCIDENT_MM
+from foldmill.vectors import lengths, units
 
 
 def planarity(fold: Fold) -> Report:
@@ -29,7 +34,9 @@ def planarity(fold: Fold) -> Report:
         "width_mm": float(size[0]),
         "height_mm": float(size[1]),
     }
-    return Report.joined([Report((), figures), _graph(pattern), _outline(pattern)])
+    closed = sewn(pattern)
+    figures["slits"] = len(pattern.edges) - len(closed.edges)
+    return Report.joined([Report((), figures), _graph(pattern, closed), _outline(pattern, closed)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,20 +50,30 @@ class Faults:
     crossing: Indices
     """(k, 2) pairs of edges that cross between their ends."""
 
+    def beside(self, closed: Sewn) -> Faults:
+        """Return what is wrong beside the slits, by the numbers of the opened pattern."""
+        known = set(map(tuple, closed.pairs.tolist()))
+        kept = [pair for pair in self.coincident.tolist() if tuple(pair) not in known]
+        lying = self.lying.copy()
+        lying[:, 1] = closed.edges[lying[:, 1]]
+        coincident = np.array(kept, np.intp).reshape(-1, 2)
+        return Faults(coincident, lying, closed.edges[self.crossing])
+
 
 def faults(points: Floats, edges: Indices) -> Faults:
     """Find what keeps points (V, 2) and edges (E, 2) from being a planar straight-line graph."""
-    import shapely
-
-    spots, lines = shapely.points(points), shapely.linestrings(points[edges])
-    tree = shapely.STRtree(lines)
-    pairs = shapely.STRtree(spots).query(spots, "dwithin", COINCIDENT_MM).T
-    beside = tree.query(spots, "dwithin", COINCIDENT_MM).T
-    across = tree.query(lines).T
+    ends = points[edges]
+    low, high = ends.min(axis=1) - COINCIDENT_MM, ends.max(axis=1) + COINCIDENT_MM
+    pairs = sweep.meeting(points - COINCIDENT_MM, points + COINCIDENT_MM)
+    crossing = sweep.meeting(low, high)
+    lying = sweep.within(points, low, high)
+    lying = lying[(edges[lying[:, 1]] != lying[:, :1]).all(axis=1)]
+    one, two = edges[crossing[:, 0]], edges[crossing[:, 1]]
+    crossing = crossing[(one != two).all(axis=1) & (one != two[:, ::-1]).all(axis=1)]
     return Faults(
-        _sorted(pairs[pairs[:, 0] < pairs[:, 1]]),
-        _sorted(beside[_is_inside(points, edges, beside)]),
-        _sorted(across[_is_crossing(points, edges, across)]),
+        _sorted(pairs[lengths(points[pairs[:, 0]] - points[pairs[:, 1]]) <= COINCIDENT_MM]),
+        _sorted(lying[_is_inside(points, edges, lying)]),
+        _sorted(crossing[_is_crossing(points, edges, crossing)]),
     )
 
 
@@ -66,34 +83,37 @@ def _sorted(pairs: Indices) -> Indices:
 
 
 def _is_inside(points: Floats, edges: Indices, pairs: Indices) -> Flags:
-    """Tell which vertices near an edge lie at neither of its ends."""
+    """Tell which vertices lie on an edge, and at neither of its ends."""
     spots, ends = points[pairs[:, 0]], points[edges[pairs[:, 1]]]
-    away = np.linalg.norm(ends - spots[:, None], axis=2)
-    inside: Flags = (away > COINCIDENT_MM).all(axis=1)
+    apart = (lengths(ends - spots[:, None]) > COINCIDENT_MM).all(axis=1)
+    start, step = ends[:, 0], ends[:, 1] - ends[:, 0]
+    squared = (step * step).sum(axis=1)
+    share = ((spots - start) * step).sum(axis=1) / np.where(squared > 0, squared, 1.0)
+    foot = start + np.clip(share, 0.0, 1.0)[:, None] * step
+    inside: Flags = apart & (lengths(spots - foot) <= COINCIDENT_MM)
     return inside
 
 
 def _is_crossing(points: Floats, edges: Indices, pairs: Indices) -> Flags:
     """Tell which edges have their ends on both sides of each other."""
-    one, two = edges[pairs[:, 0]], edges[pairs[:, 1]]
-    apart = (one[:, :, None] != two[:, None, :]).all(axis=(1, 2)) & (pairs[:, 0] < pairs[:, 1])
-    straddles = [_straddles(points[a], points[b]) for a, b in ((one, two), (two, one))]
-    crossing: Flags = apart & straddles[0] & straddles[1]
+    lines, others = points[edges[pairs[:, 0]]], points[edges[pairs[:, 1]]]
+    crossing: Flags = _straddles(lines, others) & _straddles(others, lines)
     return crossing
 
 
 def _straddles(line: Floats, other: Floats) -> Flags:
     """Tell whether the ends of ``other`` (n, 2, 2) lie on both sides of ``line`` (n, 2, 2)."""
-    along = line[:, 1] - line[:, 0]
-    unit = along / np.linalg.norm(along, axis=1, keepdims=True)
+    along = units(line[:, 1] - line[:, 0])
     step = other - line[:, :1]
-    height = unit[:, None, 0] * step[:, :, 1] - unit[:, None, 1] * step[:, :, 0]
-    both: Flags = (height.min(axis=1) < -COINCIDENT_MM) & (height.max(axis=1) > COINCIDENT_MM)
+    height = along[:, None, 0] * step[:, :, 1] - along[:, None, 1] * step[:, :, 0]
+    one, two = height[:, 0], height[:, 1]
+    both: Flags = np.minimum(one, two) < -COINCIDENT_MM
+    both &= np.maximum(one, two) > COINCIDENT_MM
     return both
 
 
-def _graph(pattern: CreasePattern) -> Report:
-    found = faults(pattern.vertices, pattern.edges)
+def _graph(pattern: CreasePattern, closed: Sewn) -> Report:
+    found = faults(pattern.vertices, closed.pattern.edges).beside(closed)
     figures: dict[str, Figure] = {
         "coincident_vertices": len(found.coincident),
         "vertices_on_edges": len(found.lying),
@@ -117,7 +137,7 @@ def _graph(pattern: CreasePattern) -> Report:
     return Report(tuple(findings), figures)
 
 
-def _outline(pattern: CreasePattern) -> Report:
+def _outline(pattern: CreasePattern, closed: Sewn) -> Report:
     loops, border = pattern.outline(), pattern.count(Assignment.B)
     figures: dict[str, Figure] = {"outline_loops": len(loops)}
     stray = border - sum(len(loop) for loop in loops)
@@ -126,17 +146,21 @@ def _outline(pattern: CreasePattern) -> Report:
         said += f" and {counted(stray, 'edge', 'edges')} beside." if stray else ", not one."
         remedy = "A sheet has one outline; draw cuts inside it as cuts."
         return Report((_fault("outline", "outline", said, remedy),), figures)
-    reason = _broken(pattern.vertices[loops[0]])
+    reason = _broken(closed.pattern)
     if reason:
         remedy = "Move its vertices apart."
         return Report((_fault("outline", "outline", reason, remedy),), figures)
     return Report.joined([Report((), figures), _filling(pattern, pattern.vertices[loops[0]])])
 
 
-def _broken(loop: Floats) -> str:
+def _broken(closed: CreasePattern) -> str:
+    """Return what is wrong with the one outline of a pattern whose slits are sewn up."""
     import shapely
 
-    outline = shapely.Polygon(loop)
+    loops = closed.outline()
+    if len(loops) != 1:
+        return f"Slits divide the sheet: sewn up, it has {len(loops)} closed loops."
+    outline = shapely.Polygon(closed.vertices[loops[0]])
     if outline.is_valid:
         return ""
     return f"The outline meets itself ({shapely.is_valid_reason(outline)})."
@@ -148,7 +172,7 @@ def _filling(pattern: CreasePattern, loop: Floats) -> Report:
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     gap = area - float((one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()) / 2
     figures: dict[str, Figure] = {"area_mm2": area, "area_gap_mm2": abs(gap)}
-    rim = float(np.linalg.norm(loop - np.roll(loop, -1, axis=0), axis=1).sum())
+    rim = float(lengths(loop - np.roll(loop, -1, axis=0)).sum())
     if abs(gap) <= COINCIDENT_MM * rim:
         return Report((), figures)
     said = "leave open" if gap > 0 else "overlap by"

@@ -30,7 +30,7 @@ def write_mesh(fold: Fold, suffix: str) -> bytes:
         )
     vertices = fold.folded.vertices + 0.0
     if suffix == ".glb":
-        mesh = _mesh(_y_up(vertices), fold)
+        mesh = _mesh(y_up(vertices), fold)
         mesh.visual = _both_faces_visible()
         return bytes(mesh.export(file_type="glb"))
     if suffix == ".stl":
@@ -40,7 +40,7 @@ def write_mesh(fold: Fold, suffix: str) -> bytes:
     return (text.rstrip("\n") + "\n").encode()
 
 
-def _y_up(vertices: Floats) -> Floats:
+def y_up(vertices: Floats) -> Floats:
     """Turn (x, y, z up) in mm into glTF's (x, y up, z towards the viewer) in metres."""
     x, y, z = vertices.T
     return np.column_stack([x, z, -y]) * _METRES + 0.0

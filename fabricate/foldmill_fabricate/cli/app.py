@@ -7,11 +7,20 @@ the commands, so that ``foldmill --help`` is quick.
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import typer
 
 from foldmill.errors import FoldmillError
-from foldmill_fabricate.cli import catalogue, designing, making, moving, running
+from foldmill_fabricate.cli import (
+    catalogue,
+    designing,
+    exploring,
+    making,
+    moving,
+    running,
+    searching,
+)
 
 app = typer.Typer(
     name="foldmill",
@@ -25,6 +34,8 @@ app = typer.Typer(
 catalogue.add_to(app)
 designing.add_to(app)
 moving.add_to(app)
+exploring.add_to(app)
+searching.add_to(app)
 making.add_to(app)
 running.add_to(app)
 
@@ -32,7 +43,7 @@ running.add_to(app)
 def main() -> None:
     """Run the command line; expected failures end as one sentence on standard error."""
     try:
-        app()
+        code = app(standalone_mode=False)
     except FoldmillError as error:
         _stop(str(error))
     except BrokenPipeError:
@@ -40,6 +51,26 @@ def main() -> None:
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         _stop(f"{place}{(error.strerror or str(error)).lower()}.")
+    except typer.Abort:
+        typer.echo("Aborted.", err=True)
+        sys.exit(1)
+    except Exception as error:
+        if not hasattr(error, "format_message"):
+            raise
+        _refuse_use(error)
+    else:
+        sys.exit(code if isinstance(code, int) else 0)
+
+
+def _refuse_use(error: Any) -> None:
+    """Say what is wrong with the words of a command; alone, a command shows its help."""
+    context = getattr(error, "ctx", None)
+    said = error.format_message()
+    if "\n" in said:
+        error.show()
+        sys.exit(2)
+    command = context.command_path if context else "foldmill"
+    _stop(f"{said.rstrip('.')}. `{command} --help` tells what there is.")
 
 
 def _stop(sentence: str) -> None:

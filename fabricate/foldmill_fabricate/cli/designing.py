@@ -17,6 +17,7 @@ from foldmill_fabricate.cli.output import (
     figure_lines,
     finding_data,
     finding_lines,
+    report_text,
     say,
     table,
 )
@@ -58,7 +59,8 @@ def design(
     """Make a fold: foldmill design FAMILY [--preset P] [--PARAM V]… -o FILE.
 
     Parameters go by their dotted names, such as --points.3.a 172.5; foldmill design FAMILY --help
-    lists them with units.
+    lists them with units. --insert points.3 makes room for another point 3, --drop points.3 leaves
+    one out; later points get new numbers.
     """
     from foldmill import installed
     from foldmill.check import check as check_fold
@@ -74,7 +76,7 @@ def design(
     fold = offered.run(gather(offered, preset, params, context.args))
     found = check_fold(fold).findings
     if output is not None and (force or not has_errors(found)):
-        save(_marked(fold, found), output)
+        save(marked(fold, found), output)
     data = {**_summary(fold), "findings": finding_data(found)}
     say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
     if output is not None and has_errors(found) and not force:
@@ -96,10 +98,10 @@ def report(
 
     offered = installed().design(family)
     figures = offered.report(name, gather(offered, preset, params, context.args))
-    say(as_json, dict(figures), figure_lines(figures))
+    say(as_json, dict(figures), report_text(figures))
 
 
-def _marked(fold: Fold, found: Sequence[Finding]) -> Fold:
+def marked(fold: Fold, found: Sequence[Finding]) -> Fold:
     """Put the codes of its errors into the fold, so that the file says what it is."""
     codes = sorted({finding.code for finding in found if finding.severity is Severity.ERROR})
     if not codes:

@@ -25,7 +25,13 @@ def motion(
     context: typer.Context,
     source: Annotated[str, typer.Argument(help="A family, or a FILE.fold that a family made.")],
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="FILE.fold (frames), .gif or .webp; by suffix.")
+        Path,
+        typer.Option(
+            "-o",
+            "--output",
+            help="FILE.fold (frames), .glb (morph targets), .gif or .webp; by suffix. "
+            "With --dihedral .csv .png or .svg.",
+        ),
     ],
     preset: Annotated[str | None, typer.Option(help="Start from a preset of the family.")] = None,
     params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
@@ -33,6 +39,10 @@ def motion(
         str | None, typer.Option("--motion", help="Which motion; default: the first.")
     ] = None,
     steps: Annotated[int, typer.Option(help="Steps from start to end.")] = 24,
+    dihedral: Annotated[
+        int | None,
+        typer.Option(help="Write the dihedral angles at this vertex of the pattern instead."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Write how a form moves: foldmill motion FAMILY [--PARAM V]… --steps N -o FILE."""
@@ -43,6 +53,9 @@ def motion(
         raise FoldmillError(f"--steps must be from 1 to {MOST_STEPS}, not {steps}.")
     fold = _fold(source, preset, params, context.args)
     moving = _motion(fold, name)
+    if dihedral is not None:
+        _angles(fold, moving, dihedral, steps, output, as_json)
+        return
     write_whole(output, _bytes(fold, moving, steps, output))
     seen = scan(fold, moving, steps)
     data = {
@@ -59,6 +72,33 @@ def motion(
         else f" Facets {seen.faces} pass through each other from t = {seen.free_until:.4f} on."
     )
     say(as_json, data, f"{output}: {moving.title}, {steps} steps.{stops}{free}")
+
+
+def _angles(fold: Fold, moving: Motion, vertex: int, steps: int, file: Path, as_json: bool) -> None:
+    """Write the dihedral angles of a vertex along a motion, as a table or as a plot."""
+    import numpy as np
+
+    from foldmill.dihedral import dihedral_angles
+    from foldmill.exchange.angles import dihedral_csv
+    from foldmill_fabricate.files import write_whole
+    from foldmill_fabricate.pictures import angles_picture
+
+    suffix = file.suffix.lower()
+    if suffix not in {".csv", ".png", ".svg"}:
+        raise FoldmillError(f"{file}: dihedral angles are written as .csv .png or .svg.")
+    angles = dihedral_angles(fold, moving, vertex, np.linspace(0.0, moving.reach, steps + 1))
+    if not angles.names:
+        raise FoldmillError(
+            f"Vertex {vertex} has no crease, only edges of the outline; take one inside."
+        )
+    as_table = suffix == ".csv"
+    written = dihedral_csv(angles, moving).encode() if as_table else b""
+    write_whole(file, written or angles_picture(angles, moving, suffix))
+    stop = {"reach": moving.reach, "reason": moving.reason}
+    rows = {"t": angles.times.tolist(), "creases": angles.names, "deg": angles.angles.tolist()}
+    stops = f" It stops at t = {moving.reach:g}: {moving.reason}" if moving.reason else ""
+    said = f"{file}: creases at vertex {vertex}: {len(angles.names)}, {steps} steps.{stops}"
+    say(as_json, {"motion": moving.name, "vertex": vertex, **stop, **rows}, said)
 
 
 def _fold(source: str, preset: str | None, params: Path | None, options: list[str]) -> Fold:
@@ -88,6 +128,7 @@ def _motion(fold: Fold, name: str | None) -> Motion:
 
 def _bytes(fold: Fold, moving: Motion, steps: int, file: Path) -> bytes:
     from foldmill.exchange import fold as fold_file
+    from foldmill.exchange.glb import write_motion
     from foldmill.exchange.motion import with_frames
     from foldmill_fabricate.pictures import motion_picture
 
@@ -96,4 +137,6 @@ def _bytes(fold: Fold, moving: Motion, steps: int, file: Path) -> bytes:
         return fold_file.write(with_frames(fold, moving, steps)).encode()
     if suffix in {".gif", ".webp"}:
         return motion_picture(fold, moving, steps, suffix)
-    raise FoldmillError(f"{file}: a motion is written as .fold .gif or .webp.")
+    if suffix == ".glb":
+        return write_motion(fold, moving, steps)
+    raise FoldmillError(f"{file}: a motion is written as .fold .glb .gif or .webp.")

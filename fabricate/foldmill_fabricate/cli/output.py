@@ -53,6 +53,26 @@ def figure_lines(figures: Mapping[str, object]) -> str:
     return table([(name.replace("_", " "), f"{value}") for name, value in figures.items()])
 
 
+def report_text(figures: Mapping[str, object]) -> str:
+    """Return one line per figure, then a table for each figure that is a list of rows."""
+    tables = {name: value for name, value in figures.items() if _is_rows(value)}
+    parts = [figure_lines({k: v for k, v in figures.items() if k not in tables})]
+    parts += [_row_table(rows) for rows in tables.values()]
+    return "\n\n".join(part for part in parts if part)
+
+
+def _is_rows(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
+
+
+def _row_table(rows: Any) -> str:
+    heads = tuple(name.replace("_", " ") for name in rows[0])
+    shown = [
+        tuple(f"{v:.3g}" if isinstance(v, float) else f"{v}" for v in row.values()) for row in rows
+    ]
+    return table([heads, *shown])
+
+
 def exit_code(findings: Iterable[Finding]) -> None:
     """Leave with 1 where there are errors among the findings."""
     if has_errors(list(findings)):

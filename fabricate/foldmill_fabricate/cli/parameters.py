@@ -1,6 +1,8 @@
 """A family's parameters on the command line: dotted names, as in every other place.
 
-``--points.3.a 172.5`` sets one value over those of the preset; nothing here knows a family.
+``--points.3.a 172.5`` sets one value over those of the preset; ``--insert points.3`` makes room for
+another point 3, and ``--drop points.3`` leaves point 3 out; the later ones get new numbers. Nothing
+here knows a family.
 """
 
 from __future__ import annotations
@@ -14,7 +16,10 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from foldmill import Design, InvalidParameters, Params, UnreadableFile
+from foldmill.numbered import inserted, moved, removed
 from foldmill.schema import Leaf, leaves
+
+_EDITS = ("insert", "drop")
 
 
 def gather(
@@ -22,18 +27,42 @@ def gather(
 ) -> Params:
     """Return parameters: the preset's or the defaults, then the file's, then the options'.
 
-    What the file states replaces what was there, whole: a file with three points has three.
+    What the file states replaces what was there, whole: a file with three points has three. What
+    is inserted or dropped is so before any value is set, in the order in which it is said.
     """
     base = design.preset(preset) if preset else design.params()
     values: dict[str, Any] = base.model_dump()
     if file is not None:
         values |= _toml(file)
-    pairs = [(name.split("."), _value(text)) for name, text in _pairs(options)]
-    _start_anew(values, pairs)
-    for path, value in pairs:
+    given = list(pairs(options))
+    for name, text in given:
+        if name in _EDITS:
+            values = _renumber(design.params, values, name, text)
+    placed = [(name.split("."), _value(text)) for name, text in given if name not in _EDITS]
+    _start_anew(values, placed)
+    for path, value in placed:
         _put(values, path, value)
     params: Params = design.validate(values)
     return params
+
+
+def _renumber(model: type[Params], values: dict[str, Any], edit: str, place: str) -> dict[str, Any]:
+    """Insert an empty part at a dotted place, such as points.3, or drop the one that is there."""
+    name, _, last = place.replace("-", "_").partition(".")
+    held = values.get(name)
+    if not isinstance(held, dict | list | tuple) or not last.isdigit():
+        raise InvalidParameters(
+            f"--{edit} {place}: write the name of a numbered part, such as points.3."
+        )
+    items, i = held if isinstance(held, dict) else dict(enumerate(held)), int(last)
+    try:
+        numbers = inserted(items, i) if edit == "insert" else removed(items, i)
+    except InvalidParameters as error:
+        raise InvalidParameters(f"--{edit} {place}: {error}") from None
+    parts = moved(items, numbers) | ({i: {}} if edit == "insert" else {})
+    parts = dict(sorted(parts.items()))
+    values[name] = parts if isinstance(held, dict) else list(parts.values())
+    return model.renumbered(values, name, numbers)
 
 
 def _start_anew(values: dict[str, Any], pairs: Sequence[tuple[list[str], Any]]) -> None:
@@ -105,7 +134,8 @@ def _toml(file: Path) -> dict[str, Any]:
         raise UnreadableFile(f"{file} is no TOML file: {error}.") from None
 
 
-def _pairs(options: Sequence[str]) -> Iterator[tuple[str, str]]:
+def pairs(options: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield name and text of --name value and --name=value; raises InvalidParameters."""
     words = iter(options)
     for word in words:
         if not word.startswith("--"):

@@ -4,6 +4,7 @@ Each is a pure function to the bytes of a PNG or SVG, the same bytes for the sam
 is imported inside the functions, without pyplot, so that nobody's global state is touched.
 """
 
+from foldmill_fabricate.pictures.angles import angles_picture
 from foldmill_fabricate.pictures.folded import folded_picture
 from foldmill_fabricate.pictures.gallery import gallery
 from foldmill_fabricate.pictures.motion import motion_picture
@@ -13,6 +14,7 @@ from foldmill_fabricate.pictures.sheet import sheet_picture
 from foldmill_fabricate.pictures.show import show_picture
 
 __all__ = [
+    "angles_picture",
     "folded_picture",
     "gallery",
     "motion_picture",

@@ -24,6 +24,7 @@ def own_style() -> Iterator[None]:
 
     with mpl.rc_context():
         mpl.rcdefaults()
+        mpl.rcParams["svg.hashsalt"] = "foldmill"  # names inside an SVG are else drawn by lot
         mpl.rcParams["pdf.fonttype"] = 42  # whole letters, so that the words can be searched
         yield
 
@@ -50,6 +51,13 @@ def png(drawn: Figure) -> bytes:
     """Return the figure as PNG without a word on when and by what it was made."""
     out = BytesIO()
     drawn.savefig(out, format="png", metadata={"Software": None})
+    return out.getvalue()
+
+
+def svg(drawn: Figure) -> bytes:
+    """Return the figure as SVG without a word on when and by what it was made."""
+    out = BytesIO()
+    drawn.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     return out.getvalue()
 
 

@@ -17,18 +17,23 @@ Floats = NDArray[np.float64]
 
 PIXELS = 360
 FRAME_MS = 60
+NEARLY = 0.999
+"""Where the last frame is, as a share of the reach: a form that is folded flat has all its layers
+in one plane, and which of them is seen would be a matter of rounding."""
 REST_MS = 900
 """How long the first and the last frame stay."""
 
 
-def motion_picture(fold: Fold, motion: Motion, steps: int, suffix: str = ".gif") -> bytes:
+def motion_picture(
+    fold: Fold, motion: Motion, steps: int, suffix: str = ".gif", pixels: int = PIXELS
+) -> bytes:
     """Return the motion there and back as an animated GIF or WebP, by the suffix."""
     from PIL import Image
 
-    frames = motion.frames(steps)
+    frames = places(motion, steps)
     view = Ball.around(np.array(frames))
     images = [
-        Image.fromarray(np.uint8(np.rint(255 * _image(fold, vertices, view))))
+        Image.fromarray(np.uint8(np.rint(255 * _image(fold, vertices, view, pixels))))
         for vertices in frames
     ]
     there_and_back = [*images, *images[-2:0:-1]]
@@ -46,6 +51,12 @@ def motion_picture(fold: Fold, motion: Motion, steps: int, suffix: str = ".gif")
     return out.getvalue()
 
 
-def _image(fold: Fold, vertices: Floats, view: Ball) -> Floats:
+def places(motion: Motion, steps: int) -> list[Floats]:
+    """Return the vertices at ``steps`` + 1 even places, the last one a hair before the reach."""
+    shares = [*(k / steps for k in range(steps)), NEARLY]
+    return [motion.at(motion.reach * share) for share in shares]
+
+
+def _image(fold: Fold, vertices: Floats, view: Ball, pixels: int) -> Floats:
     shown = replace(fold, folded=FoldedForm(vertices))
-    return render(shown, ABOVE, PIXELS, view)
+    return render(shown, ABOVE, pixels, view)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from foldmill import Assignment, CreasePattern, Fold
+from foldmill.slits import sewn
 from foldmill_fabricate.pictures import canvas
 
 if TYPE_CHECKING:
@@ -44,7 +45,11 @@ def pattern_picture(fold: Fold) -> bytes:
 
 
 def draw(axes: Axes, pattern: CreasePattern, *, legend: bool = True) -> None:
-    """Draw a pattern into axes in its own mm; with legend and scale bar below, or bare."""
+    """Draw a pattern into axes in its own mm; with legend and scale bar below, or bare.
+
+    A slit is drawn once, as an inner cut.
+    """
+    pattern = sewn(pattern).pattern
     ends = pattern.vertices[pattern.edges]
     for kind, look in LOOKS.items():
         chosen = pattern.assignments == kind

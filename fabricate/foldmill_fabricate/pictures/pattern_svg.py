@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from foldmill import Assignment, Fold
+from foldmill.slits import sewn
 from foldmill_fabricate.formats.svg import canvas, number, path, to_bytes
 
 COLOURS = {
@@ -25,8 +26,11 @@ MARGIN = 5.0
 
 
 def pattern_svg(fold: Fold) -> bytes:
-    """Return the pattern as SVG, mm outside and inside, y turned downward."""
-    pattern = fold.pattern
+    """Return the pattern as SVG, mm outside and inside, y turned downward.
+
+    A slit is one line, an inner cut: a simulator opens it by itself.
+    """
+    pattern = sewn(fold.pattern).pattern
     corner = pattern.vertices.min(axis=0) - MARGIN
     width, height = np.ptp(pattern.vertices, axis=0) + 2 * MARGIN
     svg = canvas(float(width), float(height))

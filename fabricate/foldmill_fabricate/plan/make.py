@@ -13,6 +13,7 @@ from foldmill import CreasePattern, Fold
 from foldmill.check import check
 from foldmill.exchange import fold as fold_file
 from foldmill.finding import Finding, Severity
+from foldmill.slits import sewn
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -45,9 +46,9 @@ def make(
     default the machine's mat; flip : how the operator turns the sheet; unassigned : where U creases
     are scored. The same input gives the same plan. Raises CannotPlan or DoesNotFit with a sentence.
     """
-    pattern = fold.pattern
-    if not len(pattern.vertices):
+    if not len(fold.pattern.vertices):
         raise CannotPlan("The pattern is empty; there is nothing to cut.")
+    pattern = sewn(fold.pattern).pattern
     sheet = lay_blank(
         machine,
         blank or (material.stock_width, material.stock_height),
@@ -57,7 +58,7 @@ def make(
     spots = placed(pattern.vertices, placement)
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
-    marks = _register(fold, spots, sheet, turn, material, by_face)
+    marks = _register(pattern, spots, sheet, turn, material, by_face)
     lines, ties = _lines(pattern, spots, by_face, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
     draft = Plan(
@@ -108,7 +109,7 @@ def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
 
 
 def _register(
-    fold: Fold,
+    pattern: CreasePattern,
     spots: Floats,
     sheet: Sheet,
     turn: Flip,
@@ -118,5 +119,5 @@ def _register(
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    part = spots[fold.pattern.outline()[0]]
+    part = spots[pattern.outline()[0]]
     return registration.register(part, sheet, turn, material.holes)

@@ -14,6 +14,7 @@ from foldmill_fabricate.passes import Stroke, Tie
 from foldmill_fabricate.toolpath import order, trails
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 STRAIGHT_DEG = 0.001
 """deg. An outline that bends by less is one straight edge."""
@@ -37,13 +38,15 @@ def outer_cut(
 ) -> tuple[tuple[Stroke, ...], tuple[Tie, ...]]:
     """Return the outline as strokes between ties, and the ties; spots : (V, 2) on the sheet.
 
-    Ties lie on straight edges, away from corners, about ``tie_pitch`` apart, three at least. Raises
-    CannotPlan where no edge is long enough to carry them.
+    Ties lie on straight edges, away from corners and from the mouths of inner cuts, about
+    ``tie_pitch`` apart, three at least. Raises CannotPlan where no edge is long enough to carry
+    them.
     """
     loops = pattern.outline()
     if not loops:
         raise CannotPlan("The pattern has no closed outline, so nothing can be cut free.")
-    rim = _corners(spots[loops[0]])
+    cuts = pattern.edges[pattern.assignments == Assignment.C]
+    rim = _corners(spots[loops[0]], np.isin(loops[0], cuts))
     places = _tie_places(rim, cut)
     ties = [_at(rim, place) for place in places]
     strokes = []
@@ -52,11 +55,14 @@ def outer_cut(
     return tuple(strokes), tuple(Tie(x=float(x), y=float(y), width=cut.tie_width) for x, y in ties)
 
 
-def _corners(rim: Floats) -> Floats:
-    """Drop the vertices at which the rim goes straight on: a tie may lie across them."""
+def _corners(rim: Floats, mouths: Flags) -> Floats:
+    """Drop the vertices at which the rim goes straight on: a tie may lie across them.
+
+    mouths : (n,) the vertices of the rim (n, 2) where an inner cut ends; they are corners.
+    """
     one, two = rim - np.roll(rim, 1, axis=0), np.roll(rim, -1, axis=0) - rim
     bend = np.degrees(np.arctan2(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0], (one * two).sum(1)))
-    kept: Floats = rim[np.abs(bend) > STRAIGHT_DEG]
+    kept: Floats = rim[(np.abs(bend) > STRAIGHT_DEG) | mouths]
     return kept
 
 

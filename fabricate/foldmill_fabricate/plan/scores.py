@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill import CreasePattern
+from foldmill import Assignment, CreasePattern
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face, Stroke
 from foldmill_fabricate.toolpath import order
@@ -22,7 +22,7 @@ STRAIGHT_DEG = 0.001
 
 
 def held_back(pattern: CreasePattern, by_face: dict[Face, Indices]) -> set[int]:
-    """Return the interior vertices that all scores stop short of.
+    """Return the vertices with paper all round that all scores stop short of.
 
     by_face : edges scored on each face. There at least two scored creases meet that are not one
     groove: they bend, or lie on different faces, whose grooves must not touch.
@@ -34,8 +34,16 @@ def held_back(pattern: CreasePattern, by_face: dict[Face, Indices]) -> set[int]:
                 step = pattern.vertices[head] - pattern.vertices[tail]
                 angle = float(np.degrees(np.arctan2(step[1], step[0])))
                 spokes.setdefault(tail, []).append((face, angle))
-    interior = set(pattern.interior_vertices.tolist())
-    return {v for v, own in spokes.items() if v in interior and not _is_one_groove(own)}
+    whole = set(surrounded(pattern).tolist())
+    return {v for v, own in spokes.items() if v in whole and not _is_one_groove(own)}
+
+
+def surrounded(pattern: CreasePattern) -> Indices:
+    """Return the vertices with paper all round: the interior ones, and the ends of inner cuts."""
+    cuts = pattern.edges[pattern.assignments == Assignment.C]
+    border = pattern.edges[pattern.assignments == Assignment.B]
+    ends, count = np.unique(cuts, return_counts=True)
+    return np.union1d(pattern.interior_vertices, np.setdiff1d(ends[count == 1], border))
 
 
 def _is_one_groove(spokes: list[tuple[Face, float]]) -> bool:

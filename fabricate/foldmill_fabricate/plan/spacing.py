@@ -1,9 +1,9 @@
 """How near grooves come to each other, on one face and across the sheet.
 
 Across the sheet (the vertex rule): grooves of both faces that share a vertex must stop short of it
-by at least half the thickness, with their ends at least one web apart. At the outline scores run
-out into the cut, and may meet there. Anywhere else they must not cross, nor run closer than the
-thickness; closer than twice the thickness is a warning.
+by at least half the thickness, with their ends at least one web apart. At the outline and beside an
+inner cut scores run out into the cut, and may meet there. Anywhere else they must not cross, nor
+run closer than the thickness; closer than twice the thickness is a warning.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face
+from foldmill_fabricate.plan.scores import surrounded
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -45,7 +46,7 @@ def findings(
     if not len(grooves.edges):
         return
     lines = shapely.linestrings(grooves.lines)
-    rim = set(np.setdiff1d(pattern.edges, pattern.interior_vertices).tolist())
+    rim = set(np.setdiff1d(pattern.edges, surrounded(pattern)).tolist())
     reach = max(2 * material.thickness, material.score.min_spacing)
     first, second = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
     for i, j in zip(first[first < second], second[first < second], strict=True):

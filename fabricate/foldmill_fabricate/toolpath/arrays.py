@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from foldmill_fabricate.toolpath.compiled import jit
+from foldmill.kernels.jit import jit
 
 RUN = 3
 """Strokes that are moved together, at the most."""

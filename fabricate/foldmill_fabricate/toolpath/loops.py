@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from foldmill.kernels.jit import jit
 from foldmill_fabricate.toolpath.arrays import RUN, flip, gap, leave, put, reverse, shift
-from foldmill_fabricate.toolpath.compiled import jit
 
 _LEAST = 1e-9
 """mm. A smaller gain is rounding."""

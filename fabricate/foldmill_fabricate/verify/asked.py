@@ -12,8 +12,10 @@ from foldmill import Assignment, CreasePattern
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.cover import Pieces
+from foldmill_fabricate.verify.slit import Slits, slits
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 
 FACES = (Face.FRONT, Face.REVERSE)
@@ -58,8 +60,27 @@ class Asked:
         return lengths
 
     def has(self, assignment: Assignment) -> Flags:
-        """Tell which edges carry an assignment."""
-        return np.asarray(self.pattern.assignments == assignment)
+        """Tell which edges carry an assignment; of a slit the first bank is an inner cut.
+
+        The second bank is nothing any more: a slit is one line.
+        """
+        given = np.asarray(self.pattern.assignments == assignment) & ~self.slits.second
+        if assignment is Assignment.B:
+            return given & ~self.slits.first
+        return given | self.slits.first if assignment is Assignment.C else given
+
+    @cached_property
+    def slits(self) -> Slits:
+        """The slits of the pattern."""
+        return slits(self.pattern)
+
+    @cached_property
+    def mouths(self) -> Floats:
+        """(k, 2) mm: where inner cuts come out at the outline, on the sheet."""
+        nodes = self.slits.node[self.pattern.edges]
+        found = np.intersect1d(nodes[self.has(Assignment.C)], nodes[self.rim])
+        mouths: Floats = self.spots[found]
+        return mouths
 
     @cached_property
     def score_face(self) -> NDArray[np.int8]:
@@ -79,24 +100,36 @@ class Asked:
         return face
 
     @cached_property
-    def rim(self) -> Flags:
-        """(E,) whether an edge belongs to the outline, not to a loop within it."""
-        border = np.flatnonzero(self.has(Assignment.B))
-        found = np.zeros(len(self.pattern.edges), bool)
+    def loop(self) -> Indices:
+        """(n,) the vertices of the outline, past the mouths of slits; none without an outline."""
         loops = self.pattern.outline()
         if not loops:
-            return found
-        sides = {frozenset(side) for side in zip(loops[0], np.roll(loops[0], -1), strict=True)}
-        for edge in border.tolist():
-            found[edge] = frozenset(self.pattern.edges[edge].tolist()) in sides
+            return np.zeros(0, np.intp)
+        nodes = self.slits.node[loops[0]]
+        banks = self.slits.node[self.pattern.edges[self.slits.first]]
+        inside = {frozenset(bank) for bank in banks.tolist()}
+        sides = zip(nodes.tolist(), np.roll(nodes, -1).tolist(), strict=True)
+        kept = np.array([frozenset(side) not in inside for side in sides], bool)
+        loop: Indices = nodes[kept]
+        return loop
+
+    @cached_property
+    def rim(self) -> Flags:
+        """(E,) whether an edge belongs to the outline, not to a loop within it nor to a slit."""
+        found = np.zeros(len(self.pattern.edges), bool)
+        sides = {frozenset(s) for s in zip(self.loop, np.roll(self.loop, -1), strict=True)}
+        nodes = self.slits.node[self.pattern.edges]
+        for edge in np.flatnonzero(self.has(Assignment.B)).tolist():
+            found[edge] = frozenset(nodes[edge].tolist()) in sides
         return found
 
     @cached_property
     def setbacks(self) -> tuple[Floats, Floats]:
         """(E, 2) twice, mm: least and most that each end of a score stops short of its vertex.
 
-        It stops short of interior vertices where at least two scored creases meet that are not one
-        groove: one straight line on one face. Where two are nearly that, either answer is right.
+        It stops short of vertices with paper all round where at least two scored creases meet that
+        are not one groove: one straight line on one face. Where two are nearly that, either answer
+        is right.
         """
         setback = self.plan.material.score.setback
         bends = self._bends()
@@ -107,7 +140,7 @@ class Asked:
     def _bends(self) -> Floats:
         """Return for each vertex (V,) by how many degrees its scored creases miss one groove."""
         scored = self.score_face != NOWHERE
-        edges = self.pattern.edges[scored]
+        edges = self.slits.node[self.pattern.edges[scored]]
         steps = self.spots[edges[:, 1]] - self.spots[edges[:, 0]]
         steps /= np.hypot(*steps.T)[:, None]
         count = np.bincount(edges.ravel(), minlength=len(self.spots))
@@ -121,10 +154,16 @@ class Asked:
         )
         two_faces = (ends_of_reverse > 0) & (ends_of_reverse < count)
         bends = np.where((count > 2) | two_faces, 180.0, np.where(count == 2, miss, 0.0))
-        inner = np.zeros(len(self.spots), bool)
-        inner[self.pattern.interior_vertices] = True
-        result: Floats = np.where(inner, bends, 0.0)
+        result: Floats = np.where(self._surrounded(), bends, 0.0)[self.slits.node]
         return result
+
+    def _surrounded(self) -> Flags:
+        """Tell which places (V,) have paper all round: not at a border, or at the end of a cut."""
+        nodes, size = self.slits.node[self.pattern.edges], len(self.spots)
+        at_border = np.bincount(nodes[self.has(Assignment.B)].ravel(), minlength=size) > 0
+        cuts = np.bincount(nodes[self.has(Assignment.C)].ravel(), minlength=size)
+        surrounded: Flags = ~at_border & (cuts < 2)
+        return surrounded
 
     def name(self, edge: int) -> str:
         """Name an edge for people."""
@@ -132,4 +171,5 @@ class Asked:
         x, y = self.ends[edge].mean(axis=0)
         kinds = {"M": "mountain", "V": "valley", "F": "flat", "B": "outline", "C": "inner cut"}
         kind = kinds.get(Assignment(int(self.pattern.assignments[edge])).name, "unassigned")
+        kind = "slit" if self.slits.first[edge] else kind
         return f"{kind} edge {edge} ({a}-{b}) at ({x:.2f}, {y:.2f}) mm"

@@ -145,10 +145,12 @@ def _one_tie(asked: Asked, tie: Tie, where: str, corners: Floats) -> list[Findin
 
 
 def _corners(asked: Asked) -> Floats:
-    """Return the corners (n, 2) of the outline, mm: where it turns by more than a named angle."""
-    loop = asked.spots[asked.pattern.outline()[0]]
+    """Return the corners (n, 2) of the outline, mm: where it turns by more than a named angle.
+
+    Where an inner cut comes out is a corner too.
+    """
+    loop = asked.spots[asked.loop]
     before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
     turn = np.degrees(np.abs(np.arctan2(cross, (before * after).sum(axis=1))))
-    corners: Floats = loop[turn > tolerances.CORNER_DEG]
-    return corners
+    return np.vstack([loop[turn > tolerances.CORNER_DEG], asked.mouths])

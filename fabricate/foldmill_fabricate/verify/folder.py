@@ -10,9 +10,9 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from foldmill import CreasePattern
-from foldmill.design import explain
 from foldmill.errors import UnreadableFile
 from foldmill.finding import Finding, Severity
+from foldmill.refusals import explain
 from foldmill_fabricate.passes import Fit, Plan
 from foldmill_fabricate.verify.verification import Verification, verify
 

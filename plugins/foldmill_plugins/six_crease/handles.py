@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.handle import Circle, Handle, Line, Plane, Space
-from foldmill.tolerances import COINCIDENT_MM
+from foldmill.tolerances import COINCIDENT_MM, HANDLE_GAP_MM
 from foldmill_plugins.six_crease import solve
 from foldmill_plugins.six_crease.params import FARTHEST, SixCreaseParams
 
@@ -38,9 +38,8 @@ def _height(i: int, spot: Floats) -> Handle:
 
 def _between(params: SixCreaseParams, i: int, y: float) -> float:
     """Keep a height between those of its neighbours on the line, a hair's breadth apart."""
-    gap = 3 * COINCIDENT_MM
-    low = params.points[i - 2].y + gap if i - 2 in params.points else -FARTHEST
-    high = params.points[i + 2].y - gap if i + 2 in params.points else FARTHEST
+    low = params.points[i - 2].y + HANDLE_GAP_MM if i - 2 in params.points else -FARTHEST
+    high = params.points[i + 2].y - HANDLE_GAP_MM if i + 2 in params.points else FARTHEST
     return float(min(max(y, low), high))
 
 

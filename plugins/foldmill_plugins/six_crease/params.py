@@ -97,7 +97,10 @@ class SixCreaseParams(Params):
     points: HeightPoints = Field(default_factory=_candlestick)
     """Points p_1, p_2 … upwards: odd ones on line l1, even ones on line l2."""
     tab: Coordinate = Field(default=0.0, ge=0)
-    """Width of the glue tabs along the seam; 0 for none."""
+    """Width of the paper that closes the seam; 0 for none."""
+    seam: Literal["tabs", "overlap"] = "tabs"
+    """What closes it: a glue tab at every edge of the seam, or one overlap along all of it, with
+    the creases of the facets that it lies upon."""
     taper: Angle = Field(default=30.0, ge=0, le=75)
-    """By how much the ends of a tab lean inwards; where the facet it is glued upon is narrower,
-    they lean as much as that facet needs."""
+    """By how much the ends of a tab, or of the overlap, lean inwards; where the facet they are
+    glued upon is narrower, they lean as much as that facet needs."""

@@ -70,8 +70,8 @@ def centre_and_radius(params: SixCreaseParams, theta: Floats) -> tuple[Floats, F
 
 
 def sine_of(degrees: float) -> float:
-    """Return the sine, exactly 0 at 0 and 180."""
-    return 0.0 if degrees in {0, 180} else float(np.sin(np.radians(degrees)))
+    """Return the sine, exactly 0 at 0, at 180, and a turn from them."""
+    return 0.0 if degrees % 180 == 0 else float(np.sin(np.radians(degrees)))
 
 
 def _first(params: SixCreaseParams) -> tuple[float, float]:
@@ -85,8 +85,8 @@ def _first_edge(params: SixCreaseParams) -> float:
 def _first_two(params: SixCreaseParams, theta: Floats) -> Floats:
     """Return P_1 and P_2 (2, ..., 2)."""
     centre, radius = centre_and_radius(params, theta)
-    beta = np.radians(params.beta)
-    second = centre + radius * np.array([np.sin(beta), np.cos(beta)]).reshape(2, *[1] * theta.ndim)
+    swing = np.array([sine_of(params.beta), np.cos(np.radians(params.beta))])
+    second = centre + radius * swing.reshape(2, *[1] * theta.ndim)
     first = np.zeros_like(second) + np.array(_first(params)).reshape(2, *[1] * theta.ndim)
     return np.stack([np.moveaxis(spot, 0, -1) for spot in (first, second)])
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from foldmill import ImpossibleGeometry
 from foldmill.axisymmetric.strip import Strip
 from foldmill.tolerances import COINCIDENT_MM
+from foldmill.vectors import cross
 
 Floats = NDArray[np.float64]
 
@@ -126,7 +127,7 @@ def _check(blank: Blank) -> None:
             f"in space, but only {length:.6g} mm in the pattern ({gap - length:.3g} mm too few)."
         )
     one, two = blank.spatial[1] - blank.spatial[0], blank.spatial[2] - blank.spatial[0]
-    if np.linalg.norm(np.cross(one, two)) < COINCIDENT_MM * float(np.abs(blank.feet).max()):
+    if np.linalg.norm(cross(one, two)) < COINCIDENT_MM * float(np.abs(blank.feet).max()):
         x, y, z = blank.chain[:3]
         raise ImpossibleGeometry(
             f"Points {x}, {y} and {z} are in one line in space, so that the blank beside "

@@ -9,7 +9,7 @@ blank, on the symmetry line, both sums are alike.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
@@ -77,22 +77,21 @@ def figures(solved: Strip) -> list[dict[str, Any]]:
     """Return the states of all points of a strip as plain values, angles to 1e-9 deg."""
     return [
         {key: round(value, 9) if isinstance(value, float) else value for key, value in row.items()}
-        for row in ({**asdict(state), "kind": str(state.kind)} for state in of_strip(solved))
+        for row in ({**vars(state), "kind": str(state.kind)} for state in of_strip(solved))
     ]
 
 
 def of_strip(solved: Strip) -> list[State]:
     """Classify every point of a strip but the centre."""
-    half = HalfWedge.of(solved)
-    sums = np.degrees(angle_sums(solved.flat, half.faces))
-    last = len(solved.flat) - 1
-    return [_state(solved, i, float(sums[i]), i >= last - 1) for i in range(1, last + 1)]
+    count = len(solved.flat)
+    sums = np.degrees(angle_sums(solved.flat, HalfWedge.of(solved).faces)).tolist()
+    x, y = solved.flat.T
+    across = x * np.sin(solved.theta) - y * np.cos(solved.theta)
+    beside = np.where(np.arange(count) % 2 == 0, across, y).tolist()
+    return [_state(solved, i, sums[i], beside[i], i >= count - 2) for i in range(1, count)]
 
 
-def _state(solved: Strip, i: int, half_sum: float, is_rim: bool) -> State:
-    angle = solved.theta if i % 2 == 0 else 0.0
-    inward = np.array([np.sin(angle), -np.cos(angle)]) * (1 if i % 2 == 0 else -1)
-    beside = float(solved.flat[i] @ inward)
+def _state(solved: Strip, i: int, half_sum: float, beside: float, is_rim: bool) -> State:
     on_line = i not in solved.off_line and i not in solved.crossing
     kind = Kind.ON_LINE if on_line else Kind.BLANK if i in solved.off_line else Kind.INVALID
     in_pattern = 2 * half_sum if on_line else half_sum

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.check.intersection import cut_lengths
+from foldmill.check.intersection import cut_lengths, triangle_normals
 from foldmill.tolerances import PENETRATION
+from foldmill.vectors import least, most
 from foldmill_plugins.tuck.blanks import Blank
 from foldmill_plugins.tuck.corners import Corners
 
@@ -97,31 +98,46 @@ def _among_others(blank: Blank, points: Floats, around: Surroundings) -> Floats:
         return np.zeros(len(points))
     normals, offsets = _planes(near)
     above = points @ normals.T - offsets
-    corner_heights = above[:, faces]  # (S, m, 3, F)
-    crosses = (corner_heights.min(axis=2) < -eps) & (corner_heights.max(axis=2) > eps)
-    s, m, f = np.nonzero(crosses)
-    one = points[s[:, None], faces[m]]
-    return _summed(len(points), s, cut_lengths(one, near[f], eps))
+    one, two, three = (above[:, faces[:, k]] for k in range(3))  # (S, m, F)
+    lowest = np.minimum(np.minimum(one, two), three)
+    highest = np.maximum(np.maximum(one, two), three)
+    s, m, f = np.nonzero((lowest < -eps) & (highest > eps))
+    return _summed(len(points), s, cut_lengths(points[s[:, None], faces[m]], near[f], eps))
 
 
 def _among_its_kind(blank: Blank, points: Floats, around: Surroundings) -> Floats:
     """Return the depths of flaps (S, n, 3) in their copies in the other wedges, and themselves."""
-    faces, count = flap_faces(blank), len(points)
-    total = np.zeros(count)
+    faces = flap_faces(blank)
     flaps = points[:, faces]  # (S, m, 3, 3)
-    low, high = flaps.min(axis=(1, 2)), flaps.max(axis=(1, 2))
-    for turn in range(around.order // 2 + 1):
-        other = _turned(flaps, around.order, turn)
-        meets = (other.min(axis=(1, 2)) <= high).all(axis=1)
-        meets &= (other.max(axis=(1, 2)) >= low).all(axis=1)
-        for a, b in np.ndindex(len(faces), len(faces)):
-            apart = turn or (a < b and len(set(faces[a]) & set(faces[b])) < 2)
-            if apart and meets.any():
-                rows = np.flatnonzero(meets)
-                total += _summed(
-                    count, rows, cut_lengths(flaps[rows, a], other[rows, b], around.eps)
-                )
-    return total
+    turns = range(around.order // 2 + 1)
+    others = np.stack([_turned(flaps, around.order, turn) for turn in turns])
+    low, high = _boxes(flaps)
+    other_low, other_high = _boxes(others)
+    meets = np.broadcast_to(
+        _strangers(faces, len(turns))[:, None], (*others.shape[:3], len(faces))
+    ).copy()  # (turns, S, m, m)
+    for axis in range(3):
+        meets &= other_low[:, :, None, :, axis] <= high[:, :, None, axis]
+        meets &= other_high[:, :, None, :, axis] >= low[:, :, None, axis]
+    k, s, a, b = np.nonzero(meets)
+    return _summed(len(points), s, cut_lengths(flaps[s, a], others[k, s, b], around.eps))
+
+
+def _boxes(triangles: Floats) -> tuple[Floats, Floats]:
+    """Return the lower and the upper corners (..., 3) of the boxes about triangles (..., 3, 3)."""
+    corners = np.swapaxes(triangles, -1, -2)
+    return least(corners), most(corners)
+
+
+def _strangers(faces: Indices, turns: int) -> NDArray[np.bool_]:
+    """Tell (turns, m, m) which facets of a flap to hold against which of a turned one.
+
+    Among the flap's own, turned by nothing, each pair once, and only what shares no edge.
+    """
+    shared = (faces[:, None, :, None] == faces[None, :, None, :]).sum(axis=(2, 3))
+    apart = np.ones((turns, len(faces), len(faces)), bool)
+    apart[0] = np.triu(shared < 2, 1)
+    return apart
 
 
 def _turned(points: Floats, order: int, turns: int) -> Floats:
@@ -138,7 +154,5 @@ def _summed(count: int, rows: Indices, lengths: Floats) -> Floats:
 
 
 def _planes(triangles: Floats) -> tuple[Floats, Floats]:
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = normals / np.where(lengths > 0, lengths, 1.0)
+    normals = triangle_normals(triangles)
     return normals, np.einsum("ni,ni->n", normals, triangles[:, 0])

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.vectors import cross, lengths
 from foldmill_plugins.tuck.blanks import Blank
 
 Floats = NDArray[np.float64]
@@ -58,7 +59,7 @@ class _Spheres:
 
     def squared_height(self, tau: Floats) -> Floats:
         spot = self.foot + tau[:, None] * self.slope
-        length = np.linalg.norm(spot, axis=1)
+        length = lengths(spot)
         square: Floats = (tau - length) * (tau + length)
         return square
 
@@ -126,7 +127,7 @@ def _interval(blank: Blank, j: int, x: Floats, spheres: _Spheres) -> tuple[Float
 
 def _spheres(blank: Blank, j: int, x: Floats, spot: Floats) -> _Spheres:
     to_point = blank.spatial[j + 1] - spot
-    reach = np.linalg.norm(to_point, axis=1)
+    reach = lengths(to_point)
     one = to_point / reach[:, None]
     first = (blank.feet[j + 1] - x) / reach
     if _is_rim(blank, j):
@@ -139,18 +140,18 @@ def _spheres(blank: Blank, j: int, x: Floats, spot: Floats) -> _Spheres:
     spare = (np.einsum("si,si->s", to_next, to_next) - ahead**2 - blank.beside[j + 2] ** 2) / 2
     second = (ahead - first * part_one) / part_two
     slope = first[:, None] * one + second[:, None] * two
-    normal = np.broadcast_to(blank.across, one.shape) if j == 0 else np.cross(one, two)
+    normal = np.broadcast_to(blank.across, one.shape) if j == 0 else cross(one, two)
     return _Spheres((spare / part_two)[:, None] * two, slope, normal)
 
 
 def _rim_normal(blank: Blank, j: int, spot: Floats, one: Floats) -> Floats:
     """Return the direction from the line X-P_j in which the rim's corner lies."""
     if j == 0:
-        return np.cross(np.broadcast_to(blank.across, one.shape), one)
+        return cross(np.broadcast_to(blank.across, one.shape), one)
     back = spot - blank.spatial[j]
     return _unit(back - np.einsum("si,si->s", back, one)[:, None] * one)
 
 
 def _unit(vectors: Floats) -> Floats:
-    unit: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    unit: Floats = vectors / lengths(vectors)[:, None]
     return unit

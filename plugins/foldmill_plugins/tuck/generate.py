@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from foldmill import Fold, InvalidParameters
-from foldmill.axisymmetric import rosette, strip
+from foldmill.axisymmetric import closed, rosette, strip
 from foldmill.axisymmetric.rosette import EdgeSigns, HalfWedge, Rosette
 from foldmill.check.intersection import penetrations
 from foldmill_plugins.tuck import blanks, classify, flaps, handles, refusals, search
@@ -36,7 +36,8 @@ def generate(params: TuckParams) -> Fold:
     # A flush flap lies on neither side; it is folded as if it came from the inside.
     pairs = zip(placed, wishes, strict=True)
     sides = [each.side or wish.side or inside for each, wish in pairs]
-    fold, meta = _fold(rose, made, sides, inside)
+    signs = closed.signs(HalfWedge.of(solved), params.phi, params.points)
+    fold, meta = _fold(rose, made, sides, signs, inside)
     meta["tucks"] = [entry for each in placed for entry in _report(each, inside)]
     meta["flaps"] = [_shape(each) for each in placed]
     meta["points"] = classify.figures(solved)
@@ -61,9 +62,10 @@ def _place(rose: Rosette, made: list[Flap], wishes: list[Wish], inside: int) -> 
     """Place the flaps: first those whose corners are all given, then the others around them."""
     if not made:
         return []
-    filled = np.concatenate([flap.faces for flap in made])
-    number = np.arange(len(rose.faces)) % len(rose.half.faces)
-    surface = rose.spatial[rose.faces[~np.isin(number, filled)]]
+    is_surface = np.ones(len(rose.half.faces), bool)
+    for flap in made:
+        is_surface[flap.faces] = False
+    surface = rose.spatial[rose.faces[np.tile(is_surface, 2 * rose.half.order)]]
     order = sorted(range(len(made)), key=lambda k: not wishes[k].is_given)
     around = Surroundings.of(rose.half.order, surface)
     found = search.arrange([(made[k].blank, wishes[k]) for k in order], around, inside)
@@ -80,16 +82,16 @@ def _check(rose: Rosette, made: list[Flap], placed: list[Placed]) -> None:
 
 
 def _fold(
-    rose: Rosette, made: list[Flap], sides: list[int], inside: int
+    rose: Rosette, made: list[Flap], sides: list[int], signs: EdgeSigns, inside: int
 ) -> tuple[Fold, dict[str, Any]]:
     """Return the fold, and what is to be told of it: how the halves of its flaps are stacked."""
-    closed: EdgeSigns = {}
+    stated = dict(signs)
     orders: list[list[int]] = []
     for flap, side in zip(made, sides, strict=True):
-        closed |= flaps.closed(flap, side)
+        stated |= flaps.closed(flap, side)
         orders += flaps.orders(rose, flap, side * inside)
     meta: dict[str, Any] = {"fold": {"folded": {"faceOrders": orders}}} if orders else {}
-    return rosette.fold(rose, closed, wedge_decides=not made), meta
+    return rosette.fold(rose, stated, wedge_decides=not made), meta
 
 
 def _report(placed: Placed, inside: int) -> list[dict[str, object]]:

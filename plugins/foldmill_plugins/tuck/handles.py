@@ -5,18 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill import InvalidParameters
+from foldmill.axisymmetric.handles import FARTHEST_MM, along_line
 from foldmill.axisymmetric.points import FreePoint, LinePoint
 from foldmill.axisymmetric.strip import Strip
 from foldmill.handle import Handle, Line, Plane, Space
+from foldmill.tolerances import HANDLE_GAP_MM
 from foldmill_plugins.tuck.flaps import Flap
 from foldmill_plugins.tuck.params import Tuck, TuckParams
 from foldmill_plugins.tuck.search import Placed
 
 Floats = NDArray[np.float64]
-
-LEAST_MM = 1e-3
-"""mm. The nearest that a handle brings a point to what limits it."""
 
 
 def of(
@@ -53,32 +51,9 @@ def _with_point(params: TuckParams, i: int, point: LinePoint | FreePoint) -> Tuc
     return params.model_copy(update={"points": {**params.points, i: point}})
 
 
-def _ray(azimuth: float, inside: int) -> Line:
-    return Line(np.zeros(2), np.array([np.cos(azimuth), inside * np.sin(azimuth)]))
-
-
 def _along(i: int, solved: Strip, inside: int) -> Handle:
-    ray = _ray(solved.theta if i % 2 == 0 else 0.0, inside)
-    here, least = float(np.hypot(*solved.flat[i])), 0.0
-    if i > 2:
-        azimuth = solved.theta if i % 2 == 0 else 0.0
-        least = float(solved.flat[i - 2] @ np.array([np.cos(azimuth), np.sin(azimuth)]))
-
-    def drag(params: TuckParams, point: Floats) -> TuckParams:
-        old = params.points[i]
-        if not isinstance(old, LinePoint):
-            raise InvalidParameters(f"Point {i} is placed by hand; drag it in its plane.")
-        a = max(float(ray.nearest(point) @ ray.along), least + LEAST_MM)
-        return _with_point(params, i, old.model_copy(update={"a": a}))
-
-    return Handle(
-        f"points.{i}.a",
-        f"Point {i} along its line",
-        Space.PATTERN,
-        here * ray.along,
-        ray,
-        drag,
-    )
+    seen = solved.flat * np.array([1.0, inside])
+    return along_line(i, seen[i], seen[max(i - 2, 0)])
 
 
 def _in_plane(i: int, solved: Strip) -> Handle:
@@ -88,7 +63,8 @@ def _in_plane(i: int, solved: Strip) -> Handle:
 
     def drag(params: TuckParams, point: Floats) -> TuckParams:
         spot = plane.nearest(point)
-        return _with_point(params, i, FreePoint(r=float(spot @ radial), z=float(spot @ up)))
+        r, z = np.clip([spot @ radial, spot @ up], -FARTHEST_MM, FARTHEST_MM)
+        return _with_point(params, i, FreePoint(r=float(r), z=float(z)))
 
     return Handle(
         f"points.{i}",
@@ -101,11 +77,13 @@ def _in_plane(i: int, solved: Strip) -> Handle:
 
 
 def _corner(k: int, i: int, j: int, flap: Flap, placed: Placed, inside: int) -> Handle:
-    ray = _ray(flap.blank.azimuth, inside)
+    azimuth = flap.blank.azimuth
+    ray = Line(np.zeros(2), np.array([np.cos(azimuth), inside * np.sin(azimuth)]))
     here = float(placed.corners.t[0, j])
-    low = float(placed.corners.low[0, j]) + LEAST_MM
+    low = min(here, float(placed.corners.low[0, j]) + HANDLE_GAP_MM)
     is_rim = flap.blank.is_open and i == flap.blank.points[-1]
-    high = np.inf if is_rim else float(placed.corners.high[0, j]) - LEAST_MM
+    high = FARTHEST_MM if is_rim else float(placed.corners.high[0, j]) - HANDLE_GAP_MM
+    high = max(here, high)
 
     def drag(params: TuckParams, point: Floats) -> TuckParams:
         t = float(np.clip(ray.nearest(point) @ ray.along, low, high))

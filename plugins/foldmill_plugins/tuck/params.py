@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -45,3 +46,13 @@ class TuckParams(Params):
     z is placed in space by hand, and leaves a blank to tuck."""
     tucks: tuple[Tuck, ...] = ()
     """How blanks are folded away; a corner that is not named is placed automatically."""
+
+    @classmethod
+    def renumbered(
+        cls, values: dict[str, Any], name: str, moved: Mapping[int, int]
+    ) -> dict[str, Any]:
+        """Keep every tuck beside its point; one whose point is gone goes with it."""
+        if name != "points":
+            return values
+        kept = [tuck for tuck in values["tucks"] if tuck["point"] in moved]
+        return {**values, "tucks": [{**tuck, "point": moved[tuck["point"]]} for tuck in kept]}

@@ -22,10 +22,8 @@ def both_sides(blank: Blank) -> InvalidParameters:
     )
 
 
-def check_given(
-    blank: Blank, given: Sequence[float | None], patterns: Sequence[tuple[int, ...]]
-) -> None:
-    """Refuse corners off their segment, out of order, or without a place in space."""
+def check_given(blank: Blank, given: Sequence[float | None]) -> None:
+    """Refuse corners off their segment or out of order."""
     before, other = blank.start, blank.first
     for i, t in zip(blank.points, given, strict=True):
         is_rim = blank.is_open and i == blank.points[-1]
@@ -35,8 +33,6 @@ def check_given(
         if not before < t < end:
             _refuse_segment(blank, i, t, before, other)
         before, other = t, i
-    if any(t is not None for t in given) or len(blank.points) == 1:
-        _check_reach(blank, given, patterns)
 
 
 def _refuse_segment(blank: Blank, i: int, t: float, before: float, other: int) -> None:
@@ -54,10 +50,12 @@ def _refuse_segment(blank: Blank, i: int, t: float, before: float, other: int) -
     )
 
 
-def _check_reach(
+def check_reach(
     blank: Blank, given: Sequence[float | None], patterns: Sequence[tuple[int, ...]]
 ) -> None:
     """Refuse where the leading given corners, on whatever sides, have no place in space."""
+    if len(blank.points) > 1 and all(t is None for t in given):
+        return
     leading = 0
     while leading < len(given) and given[leading] is not None:
         leading += 1

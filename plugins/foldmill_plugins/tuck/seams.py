@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.tolerances import CLOSED_DEG
+from foldmill.vectors import cross
 from foldmill_plugins.tuck.blanks import Blank
 from foldmill_plugins.tuck.corners import Corners
 
@@ -57,7 +58,7 @@ def _at_seam(blank: Blank, j: int, corners: Corners) -> tuple[Floats, float]:
     axis = (end - start) / np.linalg.norm(end - start)
     into = _perpendicular(beyond - start, axis)
     # Counter-clockwise from above: (i-2, i-1, i) for even i, (i-2, i, i-1) for odd i.
-    upward = np.cross(into, axis) * (1 if blank.first % 2 == 0 else -1)
+    upward = cross(into, axis) * (1 if blank.first % 2 == 0 else -1)
     mirrored = _perpendicular(beyond - start, axis)
     mirrored = mirrored - 2 * (mirrored @ blank.across) * blank.across
     tip = corners.spots[:, max(j - 1, 0)] - start

@@ -89,7 +89,7 @@ class _Found:
 
     def free(self, wish: Wish) -> NDArray[np.bool_]:
         free: NDArray[np.bool_] = (self.depth == 0) & (self.side != TORN)
-        return free if wish.side is None else free & np.isin(self.side, (0, wish.side))
+        return free if wish.side is None else free & ((self.side == 0) | (self.side == wish.side))
 
 
 def arrange(wishes: list[tuple[Blank, Wish]], around: Surroundings, inside: int) -> list[Placed]:
@@ -110,7 +110,7 @@ def arrange(wishes: list[tuple[Blank, Wish]], around: Surroundings, inside: int)
 def _options(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> Iterator[Placed]:
     """Yield places of one flap, the best first; raises NoPlace where there is none."""
     patterns = _patterns(blank, wish, around)
-    refusals.check_given(blank, wish.given, patterns)
+    refusals.check_given(blank, wish.given)
     if wish.is_given:
         found = [_tried(blank, np.ones((1, len(blank.points))), p, wish, around) for p in patterns]
         options = [Placed(blank, f.corners, int(f.side[0])) for f in found if f.free(wish)[0]]
@@ -119,6 +119,7 @@ def _options(blank: Blank, wish: Wish, around: Surroundings, inside: int) -> Ite
     else:
         options = _several(blank, wish, around, patterns)
     if not options:
+        refusals.check_reach(blank, wish.given, patterns)
         raise _refusal(blank, wish, around, inside)
     # The rim of an open blank folds to either side; it is hidden where it can be.
     yield from sorted(options, key=lambda each: blank.is_open and each.side == -inside)

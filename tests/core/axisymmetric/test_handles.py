@@ -7,6 +7,7 @@ import pytest
 
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.handle import Handle, Space
+from foldmill.tolerances import HANDLE_GAP_MM
 from foldmill_plugins.rotational import DESIGN, RotationalParams
 
 SEATED = RotationalParams(
@@ -47,8 +48,29 @@ def test_a_point_cannot_be_dragged_past_its_neighbour_on_the_line() -> None:
     params = DESIGN.presets["bowl-n8"]
     grip = handle(params, "points.2.a")
     far = grip.drag(params, grip.position * 100)
-    assert far.points[2].a == params.points[4].a - 1
-    assert grip.drag(params, -grip.position).points[2].a == 1
+    assert far.points[2].a == params.points[4].a - HANDLE_GAP_MM
+    assert grip.drag(params, -grip.position).points[2].a == HANDLE_GAP_MM
+    for after in (far, grip.drag(params, -grip.position)):
+        assert DESIGN.run(DESIGN.validate(after.model_dump())).folded is not None
+
+
+def test_nothing_is_dragged_farther_out_than_may_be_typed_in() -> None:
+    params = DESIGN.presets["bowl-n8"]
+    grip = handle(params, "points.6.a")
+    far = grip.drag(params, grip.position * 1e9)
+    assert DESIGN.validate(far.model_dump()) == far
+    assert far.points[6].a > 99_999
+
+
+def test_a_point_that_already_is_nearer_than_a_handle_goes_may_stay_there() -> None:
+    close = {**DESIGN.presets["bowl-n8"].points, 3: LinePoint(a=40 + HANDLE_GAP_MM / 4)}
+    params = RotationalParams(n=8, phi=75, points=close)
+    for name in ("points.1.a", "points.3.a"):
+        grip = handle(params, name)
+        after = grip.drag(params, grip.position).points
+        assert [point.a for point in after.values()] == pytest.approx(
+            [point.a for point in close.values()], abs=1e-12
+        )
 
 
 def test_the_opening_angle_follows_the_first_point_on_its_circle() -> None:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from foldmill.check import intersection
 from foldmill.check.intersection import penetrations
 
 Points = Sequence[Sequence[float]]
@@ -129,3 +130,21 @@ def test_only_pairs_with_a_face_of_interest_are_reported() -> None:
     some = penetrations(points, edges, faces, np.array([3, 7]))
     assert some.tolist() == every[np.isin(every, [3, 7]).any(axis=1)].tolist()
     assert 0 < len(some) < len(every)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_mesh_too_large_for_one_table_gets_the_same_verdicts(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(seed)
+    # Corners on a coarse grid, so that facets also lie in each other's planes and cross at creases.
+    points, faces = rng.integers(-3, 4, (40, 3)).astype(float), rng.integers(0, 40, (60, 3))
+    faces = faces[[len(set(face)) == 3 for face in faces.tolist()]]
+    sides = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges = np.unique(np.sort(sides, axis=1), axis=0)
+    some = rng.integers(0, len(faces), 9)
+    whole = [penetrations(points, edges, faces, among) for among in (None, some)]
+    monkeypatch.setattr(intersection, "_BLOCK", 500)
+    parts = [penetrations(points, edges, faces, among) for among in (None, some)]
+    assert [each.tolist() for each in parts] == [each.tolist() for each in whole]
+    assert len(whole[0]) > len(whole[1]) > 0

@@ -108,11 +108,11 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
     [
         (["design", "tuk"], "There is no family 'tuk'. There are:"),
         (["design", "tuck", "--preset", "stool"], "There is no preset of tuck 'stool'"),
-        (["design", "tuck", "--n", "2"], "n: Input should be greater than or equal to 3"),
+        (["design", "tuck", "--n", "2"], "n must be at least 3"),
         (["design", "tuck", "--points.9.a", "5"], "numbered 1, 2, 3"),
-        (["design", "tuck", "--colour", "red"], "colour: Extra inputs are not permitted"),
+        (["design", "tuck", "--colour", "red"], "There is no colour to set"),
         (["design", "tuck", "--phi"], "--phi needs a value"),
-        (["design", "tuck", "--phi", "NaN"], "phi: Input should be"),
+        (["design", "tuck", "--phi", "NaN"], "phi must be"),
         (["design", "tuck", "-o", "stool.dwg"], "write .fold .svg .png .glb .stl or .obj"),
         (["check", "nothing.fold"], "nothing.fold: no such file or directory."),
         (["plan", "bad.fold", "-o", "job"], "bad.fold"),
@@ -129,7 +129,7 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["plan", "a.fold", "-o", "bad.fold"], "bad.fold: file exists."),
         (["design", "rotational", "-o", "bad.fold/x.fold"], "bad.fold"),
         (["report", "rotational", "weight"], "There is no report of rotational 'weight'"),
-        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .gif or .webp"),
+        (["motion", "a.fold", "-o", "m.mp4"], "a motion is written as .fold .glb .gif or .webp"),
         (["motion", "a.fold", "--motion", "dance", "-o", "m.gif"], "There is no motion 'dance'"),
         (["motion", "a.fold", "--steps", "0", "-o", "m.gif"], "--steps must be from 1"),
         (["motion", "tuck", "-o", "m.gif"], "no motion that is known"),
@@ -160,12 +160,59 @@ def test_a_report_tells_where_a_form_is_free(foldmill: Run) -> None:
     assert "Point 3 must lie farther out" in impossible.err
 
 
+def test_a_report_with_rows_is_a_table_for_people_and_a_list_for_machines(foldmill: Run) -> None:
+    words = ("report", "six-crease", "flat-foldability", "--preset", "cup")
+    told = foldmill(*words)
+    assert told.code == 0
+    head, *rows = told.out.split("\n\n")[1].splitlines()
+    assert " ".join(head.split()) == "point folded flat kawasaki deg M minus V verdict"
+    assert [row.split()[0] for row in rows] == ["3", "4", "5", "6", "7"]
+    points = json.loads(foldmill(*words, "--json").out)["points"]
+    assert [point["M_minus_V"] for point in points] == [2, -2, 2, -2, 2]
+    freedoms = json.loads(foldmill("report", "six-crease", "freedoms", "--json").out)
+    assert (freedoms["freedoms_open_sheet"], freedoms["freedoms_glued_tube"]) == (43, 34)
+
+
+def test_dihedral_angles_of_a_vertex_are_written_as_a_table_and_as_a_plot(foldmill: Run) -> None:
+    words = ("motion", "six-crease", "--preset", "cup", "--dihedral", "17", "--steps", "4")
+    assert "creases at vertex 17: 6, 4 steps" in foldmill(*words, "-o", "a.csv").out
+    head, *rows = Path("a.csv").read_text("utf-8").splitlines()
+    assert head.startswith("t,folding rate FR (%),17-19 M (deg),")
+    assert [row.split(",")[1] for row in rows] == ["0", "25", "50", "75", "100"]
+    said = json.loads(foldmill(*words, "-o", "a.png", "--json").out)
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+    assert said["deg"][0][0] == pytest.approx(float(rows[0].split(",")[2]), abs=1e-6)
+    assert foldmill(*words, "-o", "a.svg").code == 0
+    assert foldmill("motion", "rotational", "--dihedral", "3", "-o", "r.csv").code == 0
+    assert Path("r.csv").read_text("utf-8").startswith("t,3-")
+
+
+@pytest.mark.parametrize(
+    ("vertex", "file", "sentence"),
+    [
+        ("94", "a.png", "There is no vertex 94; the pattern has 0 to 93."),
+        ("-1", "a.png", "There is no vertex -1; the pattern has 0 to 93."),
+        ("99", "a.png", "Vertex 99 has no crease, only edges of the outline; take one inside."),
+        ("17", "a.gif", "a.gif: dihedral angles are written as .csv .png or .svg."),
+    ],
+)
+def test_a_vertex_without_dihedral_angles_is_refused_with_a_sentence(
+    foldmill: Run, vertex: str, file: str, sentence: str
+) -> None:
+    more = ("--tab", "2") if vertex == "99" else ()
+    told = foldmill("motion", "six-crease", "--dihedral", vertex, "-o", file, *more)
+    assert (told.code, told.err) == (2, f"foldmill: {sentence}\n")
+    assert not Path(file).exists()
+
+
 def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) -> None:
     assert foldmill("motion", "rotational", "--phi", "70", "--steps", "4", "-o", "m.fold").code == 0
     told = json.loads(Path("m.fold").read_text())
     assert told["file_classes"] == ["animation"]
     assert len(told["file_frames"]) == 1 + 5
     assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.gif").code == 0
+    assert foldmill("motion", "m.fold", "--steps", "3", "-o", "m.glb").code == 0
+    assert Path("m.glb").read_bytes().startswith(b"glTF")
     assert Path("m.gif").read_bytes().startswith(b"GIF89a")
 
 

@@ -14,8 +14,8 @@ from urllib.parse import parse_qsl, urlsplit
 from pydantic import ValidationError
 
 from foldmill import installed
-from foldmill.design import explain
 from foldmill.errors import InvalidInput
+from foldmill.refusals import explain
 from foldmill_fabricate.hooks import MACHINES
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock, VirtualClock

@@ -1,0 +1,92 @@
+"""What is wrong with parameters, said to a person: which one, what it must be, what it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from foldmill.schema import ANY, leaves, objects
+
+_BRANCHES = {"line", "free"}
+"""Names of alternatives that pydantic adds to a place; no person wrote them."""
+_LIMITS = {
+    "greater_than": ("more than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+_KINDS = {
+    "bool_parsing": "yes or no",
+    "bool_type": "yes or no",
+    "dict_type": "a table of names and values",
+    "finite_number": "a finite number",
+    "float_parsing": "a number",
+    "float_type": "a number",
+    "int_from_float": "a whole number",
+    "int_parsing": "a whole number",
+    "int_type": "a whole number",
+    "list_type": "a list",
+    "model_type": "a table of names and values",
+    "string_type": "text",
+    "tuple_type": "a list",
+}
+
+
+def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:
+    """Return a sentence for each fault, with the parameter's dotted name.
+
+    model : where given, limits come with their units, and a misspelt name with those there are.
+    """
+    schema = model.model_json_schema() if model else {}
+    return " ".join(_sentence(fault, schema) for fault in error.errors())
+
+
+def _sentence(fault: Mapping[str, Any], schema: dict[str, Any]) -> str:
+    path = tuple(str(part) for part in fault["loc"] if part not in _BRANCHES)
+    name, kind, context = ".".join(path), fault["type"], fault.get("ctx", {})
+    if kind == "missing":
+        return f"{name} is missing: give it a value."
+    if kind == "extra_forbidden":
+        return f"There is no {name} to set{_known(path, schema)}."
+    if kind in _LIMITS and name:
+        words, key = _LIMITS[kind]
+        limit, unit = context[key], _unit(path, schema)
+        return f"{name} must be {words} {limit:g}{unit}, not {_given(fault)}."
+    if kind in _KINDS and name:
+        return f"{name} must be {_KINDS[kind]}, not {_given(fault)}."
+    if kind in {"literal_error", "enum"} and name:
+        return f"{name} must be {context['expected']}, not {_given(fault)}."
+    said = fault["msg"].removeprefix("Value error, ").rstrip(".")
+    shown = "" if isinstance(fault["input"], (Mapping, list, tuple)) else f" (got {_given(fault)})"
+    return f"{name}: {said}{shown}." if name else f"{said[:1].upper()}{said[1:]}."
+
+
+def _given(fault: Mapping[str, Any]) -> str:
+    given = fault["input"]
+    if isinstance(given, float):
+        return "NaN" if math.isnan(given) else f"{given:g}"
+    return repr(given)
+
+
+def _unit(path: tuple[str, ...], schema: dict[str, Any]) -> str:
+    units = {leaf.unit for leaf in leaves(schema) if _matches(leaf.kind, path)} if schema else set()
+    return f" {units.pop()}" if len(units) == 1 and units != {""} else ""
+
+
+def _known(path: tuple[str, ...], schema: dict[str, Any]) -> str:
+    names = [
+        key
+        for place, node in (objects(schema) if schema else ())
+        if _matches(place, path[:-1])
+        for key in node.get("properties", {})
+    ]
+    return f"; there are {', '.join(dict.fromkeys(names))}" if names else ""
+
+
+def _matches(kind: str, path: tuple[str, ...]) -> bool:
+    parts = kind.split(".") if kind else []
+    pairs = zip(parts, path, strict=False)
+    return len(parts) == len(path) and all(a in (ANY, b) for a, b in pairs)

@@ -1,0 +1,83 @@
+"""Chunks kept on disk, so that a sweep that was broken off goes on where it was.
+
+A sweep has a folder of its own, named by the hash of all that decides its rows; a chunk is a file.
+"""
+
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from importlib.metadata import version
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from foldmill_fabricate.explore.chunk import Chunk, Task
+from foldmill_fabricate.files import write_whole
+
+FORM = 1
+"""Of the files; another form is another sweep."""
+
+
+def key(task: Task) -> str:
+    """Return the hash of a sweep: its family, versions, parameters, ranges and chunks."""
+    stated = {
+        "form": FORM,
+        "foldmill": version("foldmill"),
+        "numpy": np.__version__,
+        "family": [task.design.slug, task.design.version, task.design.batch is not None],
+        "base": task.base.model_dump(mode="json"),
+        "vary": [[axis.name, axis.values.tolist()] for axis in task.grid.axes],
+        "chunk_rows": task.chunk_rows,
+    }
+    return sha256(json.dumps(stated).encode()).hexdigest()
+
+
+class Store:
+    """The finished chunks of one sweep."""
+
+    def __init__(self, folder: Path, task: Task) -> None:
+        self.task = task
+        self.folder = folder / f"{task.design.slug}-{key(task)[:16]}"
+
+    def save(self, chunk: Chunk) -> None:
+        """Keep a chunk."""
+        out = BytesIO()
+        told = json.dumps([[row, said] for row, said in chunk.faults.items()])
+        figures = {f"figure {name}": column for name, column in chunk.figures.items()}
+        arrays: dict[str, Any] = {
+            "codes": chunk.codes,
+            "at": chunk.at,
+            "faults": np.array(told),
+            **figures,
+        }
+        np.savez_compressed(out, **arrays)
+        write_whole(self._file(chunk.number), out.getvalue())
+
+    def load(self, number: int) -> Chunk | None:
+        """Return a chunk, or None where it is not there whole."""
+        file = self._file(number)
+        if not file.exists():
+            return None
+        try:
+            with np.load(BytesIO(file.read_bytes())) as kept:
+                chunk = _chunk(number, dict(kept))
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            return None
+        return chunk if len(chunk.codes) == len(self.task.rows(number)) else None
+
+    def _file(self, number: int) -> Path:
+        return self.folder / f"{number:06d}.npz"
+
+
+def _chunk(number: int, kept: dict[str, np.ndarray]) -> Chunk:
+    faults = {int(row): str(said) for row, said in json.loads(str(kept["faults"]))}
+    figures = {
+        name.removeprefix("figure "): column
+        for name, column in kept.items()
+        if name.startswith("figure ")
+    }
+    return Chunk(number, kept["codes"], kept["at"], figures, faults)

@@ -1,0 +1,186 @@
+"""All configurations of a family on a grid: what becomes of each, and where the free ones are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import Design, Fold, FoldmillError, Params
+from foldmill.batch import Outcome, Outcomes
+from foldmill.configurations import outcomes, with_values
+from foldmill_fabricate.errors import CannotExplore, EngineFailed
+from foldmill_fabricate.explore import engine as engines
+from foldmill_fabricate.explore.chunk import FAULT, Chunk, Task, compute, joined_figures
+from foldmill_fabricate.explore.engine import Engine, Local
+from foldmill_fabricate.explore.grid import AT_MOST, Grid, grid
+from foldmill_fabricate.explore.ranges import Range
+from foldmill_fabricate.explore.regions import FULL_TURN, Region, closes, regions
+from foldmill_fabricate.explore.store import Store
+
+P = TypeVar("P", bound=Params)
+Progress = Callable[[int, int], None]
+"""Told (rows done, rows of the sweep) now and then."""
+
+WORDS = {outcome.value: outcome.name.lower().replace("_", "-") for outcome in Outcome} | {
+    FAULT: "fault"
+}
+"""What an outcome is called in tables and pictures."""
+SAME = 1e-6
+"""mm; figures of one form computed at an angle and a full turn further differ by rounding alone."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep(Generic[P]):
+    """What became of every row of a grid."""
+
+    design: Design[P]
+    base: P
+    """The parameters that all rows share."""
+    grid: Grid
+    outcomes: Outcomes
+    """Row by row; a code may be FAULT, where the family broke down."""
+    faults: dict[int, str]
+    """What was said there, by row."""
+    labels: NDArray[np.int32]
+    """(n,) number of the free region each row is in; 0 where it is not free."""
+    regions: tuple[Region, ...]
+    """The largest first."""
+    joined: tuple[bool, ...]
+    """Which axes go once round."""
+
+    def __len__(self) -> int:
+        return len(self.grid)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many rows have each outcome, by its word; outcomes that no row has are left out."""
+        number = np.bincount(self.outcomes.codes, minlength=FAULT + 1)
+        return {word: int(number[code]) for code, word in WORDS.items() if number[code]}
+
+    def params(self, row: int) -> P:
+        """Return the parameters of a row; raises CannotExplore, InvalidParameters."""
+        return with_values(self.design, self.base, self.grid.values(row))
+
+    def fold(self, row: int) -> Fold:
+        """Return the fold of a row; raises CannotExplore, with its values, where it has none."""
+        told = f"Row {row} ({self.grid.told(row)})"
+        try:
+            return self.design.run(self.params(row))
+        except FoldmillError as error:
+            raise CannotExplore(f"{told} has no form: {error}") from None
+
+
+def explore(
+    design: Design[P],
+    base: P,
+    ranges: Sequence[Range],
+    engine: Engine | None = None,
+    *,
+    at_most: int = AT_MOST,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+) -> Sweep[P]:
+    """Compute what becomes of a design over all combinations of values of some parameters.
+
+    base : the parameters that are not varied; engine : if not given, all cores of this machine, or
+    one where that is sooner; at_most : rows; resume : a folder that keeps finished chunks, and
+    gives back those it has. The result does not depend on the engine.
+
+    Raises CannotExplore, InvalidParameters, EngineFailed.
+    """
+    task = Task(design, base, grid(design, base, ranges, at_most))
+    engine = engine or Local(1 if task.is_short else -1)
+    chunks = _chunks(task, engine, Store(resume, task) if resume else None, progress or _untold)
+    found = Outcomes(
+        np.concatenate([chunk.codes for chunk in chunks]),
+        np.concatenate([chunk.at for chunk in chunks]),
+        joined_figures(chunks),
+    )
+    faults = {row: said for chunk in chunks for row, said in chunk.faults.items()}
+    joined = tuple(_is_joined(task, found, place) for place in range(len(task.grid.axes)))
+    labels, free = regions(task.grid, found.codes == Outcome.FREE, joined)
+    return Sweep(design, base, task.grid, found, faults, labels, free, joined)
+
+
+def _untold(*_: int) -> None:
+    """Tell nobody how far it is."""
+
+
+def _chunks(task: Task, engine: Engine, store: Store | None, progress: Progress) -> list[Chunk]:
+    """Return all chunks in order, those of the store first and the others as they are computed."""
+    kept = (store.load(number) for number in range(task.chunks)) if store else ()
+    done = {chunk.number: chunk for chunk in kept if chunk}
+    rows = sum(len(chunk.codes) for chunk in done.values())
+    progress(rows, len(task.grid))
+    missing = [number for number in range(task.chunks) if number not in done]
+    try:
+        work = partial(compute, task)
+        for chunk in engines.run(engine, work, missing, packages(task.design)) if missing else ():
+            done[chunk.number] = chunk
+            if store:
+                store.save(chunk)
+            rows += len(chunk.codes)
+            progress(rows, len(task.grid))
+    except EngineFailed as error:
+        raise _broken_off(error, task, done, store) from error
+    return [done[number] for number in range(task.chunks)]
+
+
+def packages(design: Design[Any]) -> tuple[str, ...]:
+    """Return the packages that a worker needs for a family, other than numpy.
+
+    What is made inside a function or a notebook travels whole and needs none.
+    """
+    own = [each for each in (design.generate, design.params) if "<locals>" not in each.__qualname__]
+    tops = {each.__module__.partition(".")[0] for each in own} - {"__main__"}
+    return ("foldmill", "foldmill_fabricate", *sorted(tops))
+
+
+def _broken_off(
+    error: EngineFailed, task: Task, done: dict[int, Chunk], store: Store | None
+) -> EngineFailed:
+    if not done:
+        return error
+    first = min(number for number in range(task.chunks) if number not in done)
+    place = task.grid.told(int(task.rows(first)[0]))
+    kept = (
+        f"They are kept in {store.folder}: the same sweep goes on there."
+        if store
+        else "With --resume DIR they would have been kept."
+    )
+    return EngineFailed(
+        f"{error} {len(done)} of {task.chunks} chunks were done; the first that was not begins at "
+        f"{place}. {kept}"
+    )
+
+
+def _is_joined(task: Task, found: Outcomes, place: int) -> bool:
+    """Tell whether an axis goes once round: the range closes, and so do the configurations.
+
+    The free rows at the first value are computed a full turn further: they must be the same forms.
+    """
+    axis = task.grid.axes[place]
+    if not closes(axis):
+        return False
+    rows = np.arange(len(task.grid)).reshape(task.grid.shape).take(0, place).ravel()
+    rows = rows[found.codes[rows] == Outcome.FREE]
+    if not len(rows):
+        return False
+    columns = task.grid.columns(rows)
+    turn = FULL_TURN * np.sign(axis.values[-1] - axis.values[0])
+    try:
+        again = outcomes(task.design, task.base, columns | {axis.name: columns[axis.name] + turn})
+    except Exception:
+        return False  # the family broke down there: nothing shows that the axis is a circle
+    if not np.array_equal(again.codes, found.codes[rows]):
+        return False
+    return all(
+        np.allclose(again.figures.get(name, np.nan), column[rows], rtol=0, atol=SAME)
+        for name, column in found.figures.items()
+    )
