@@ -31,6 +31,8 @@ Signs = NDArray[np.int8]
 
 _BLOCK = 2_000_000
 """Heights over planes looked at in one go: about 50 MB."""
+MANY = 2_000_000
+"""Vertices times faces beyond which a tree finds the facets that are near each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,10 @@ def penetrations(
     among : faces of interest; only pairs with one of them are looked at (default: all).
     """
     eps = PENETRATION * float(np.ptp(vertices, axis=0).max())
+    if len(vertices) * len(faces) > MANY:
+        from foldmill.check import large
+
+        return large.penetrations(vertices, faces, eps, among)
     is_wanted = np.full(len(faces), among is None)
     is_wanted[np.asarray([] if among is None else among, np.intp)] = True
     mesh = _Mesh(vertices, faces, is_wanted, eps)

@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foldmill import ImpossibleGeometry
 from foldmill_plugins.waterbomb.surfaces import Jet, Surface
-from foldmill_plugins.waterbomb.topology import Flags, Topology
+from foldmill_plugins.waterbomb.topology import Topology
 
 Floats = NDArray[np.float64]
 
@@ -105,7 +105,7 @@ def base_mesh(surface: Surface, topology: Topology, offsets: Offsets) -> Floats:
     du, dv = surface.steps(topology.n_u, topology.n_v)
     area: Floats = np.linalg.norm(jet.cross, axis=1)
     size = float(np.ptp(jet.p, axis=0).max())
-    shrinks: Flags = np.less_equal(area * (du * dv), (DEGENERATE * size) ** 2)
+    shrinks = area * (du * dv) <= (DEGENERATE * size) ** 2
     _refuse(surface, shrinks, u, v, "has no normal: it shrinks to a point or a line")
     away = np.where(topology.is_centre, -np.asarray(offsets.depth), offsets.lift)
     height = offsets.side * away * cell_sizes(jet, du, dv)
@@ -118,7 +118,7 @@ def base_mesh(surface: Surface, topology: Topology, offsets: Offsets) -> Floats:
     return points
 
 
-def _refuse(surface: Surface, faults: Flags, u: Floats, v: Floats, said: str) -> None:
+def _refuse(surface: Surface, faults: ArrayLike, u: Floats, v: Floats, said: str) -> None:
     where = np.flatnonzero(faults)
     if len(where):
         at = where[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +12,9 @@ from foldmill_plugins.waterbomb.base import Offsets, base_mesh, closed_topology
 from foldmill_plugins.waterbomb.curvature import flat_metric
 from foldmill_plugins.waterbomb.jacobian import Stars
 from foldmill_plugins.waterbomb.metric import Start, closed_form
+from foldmill_plugins.waterbomb.nested import halved, transferred
 from foldmill_plugins.waterbomb.params import WaterbombParams
+from foldmill_plugins.waterbomb.sector import Sector
 from foldmill_plugins.waterbomb.solve import Developed, develop
 from foldmill_plugins.waterbomb.surfaces import Surface
 from foldmill_plugins.waterbomb.topology import Topology
@@ -24,7 +26,14 @@ E_TOTAL = 1e-10
 where a torus is laid flat."""
 MOST_ITERATIONS = 40
 """Steps after which the search is given up; a start that suits takes 3 to 6."""
-DEPTH, UNIFORM_DEPTH, UNIFORM_SLIDE = 0.3, 0.5, 0.25
+COARSE = 1e-3
+"""deg. e_total at which a coarser mesh has told where it goes."""
+MANY = 2_000
+"""Bases beyond which a search begins with fewer of them, or takes one sector."""
+DEPTH = 0.3
+"""Depth of the widest cell, in cells: folds of 30° at least on all seven surfaces, and close."""
+UNIFORM_DEPTH, UNIFORM_SLIDE = 0.5, 0.25
+"""The depth and slide at which the most targets converge."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +87,11 @@ class Build:
         slide = slide if given.slide is None else given.slide
         return Offsets(depth, slide, given.lift, self.side, inside)
 
+    def with_bases(self, topology: Topology) -> Build:
+        """Return the same with another number of bases."""
+        changed = {"n_u": topology.n_u, "n_v": topology.n_v, "start": self.start}
+        return Build(self.params.model_copy(update=changed))
+
     @cached_property
     def base(self) -> Floats:
         """(V, 3) the base mesh."""
@@ -90,5 +104,27 @@ class Build:
 
     @cached_property
     def developed(self) -> Developed:
-        """The mesh after the search."""
+        """The mesh after the search: a large one by its sector, or begun by a coarser one."""
+        if self.params.n_u * self.params.n_v > MANY:
+            if self.surface.is_revolution and self.topology.is_u_closed:
+                return self._by_sector()
+            if self.start == "uniform":
+                return develop(self.stars, self._begun_by_a_coarser(), E_TOTAL, MOST_ITERATIONS)
         return develop(self.stars, self.base, E_TOTAL, MOST_ITERATIONS)
+
+    def _by_sector(self) -> Developed:
+        sector = Sector.of(self.topology, self.stars, self.base)
+        found = develop(sector, self.base, E_TOTAL, MOST_ITERATIONS)
+        rest = develop(self.stars, found.points, E_TOTAL, MOST_ITERATIONS)
+        if rest.iterations == 0:
+            return replace(found, errors=(*found.errors[:-1], rest.error))
+        return replace(rest, errors=found.errors + rest.errors[1:])
+
+    def _begun_by_a_coarser(self) -> Floats:
+        topology = halved(self.surface, self.topology)
+        if topology is None:
+            return self.base
+        coarse = self.with_bases(topology)
+        begun = coarse._begun_by_a_coarser()
+        moved = develop(coarse.stars, begun, COARSE, MOST_ITERATIONS).points
+        return transferred(self.surface, topology, coarse.base, moved, self.topology, self.base)

@@ -51,21 +51,27 @@ class Stars:
 
     def residual(self, points: Floats) -> Floats:
         """Return (m,) angle sum minus 2π at every interior vertex, rad; points : (V, 3)."""
-        return self._evaluate(points, with_gradient=False)[0]
+        return self.evaluate(points, with_gradient=False)[0]
 
     def linearised(self, points: Floats) -> tuple[Floats, Any]:
         """Return the residual (m,) and the Jacobian, a CSR matrix (m, 3 · free vertices)."""
         from scipy.sparse import csr_matrix
 
-        residual, gradient = self._evaluate(points, with_gradient=True)
+        residual, gradient = self.evaluate(points, with_gradient=True)
         chosen, indices, ends = self._pattern
         whole = np.concatenate([-gradient.sum(axis=2)[:, :, None], gradient], axis=2)
         data = whole.reshape(3, -1)[:, chosen].T.ravel()
         shape = (len(self.centre), 3 * int(np.count_nonzero(self.is_free)))
         return residual, csr_matrix((data, indices, ends), shape=shape)
 
-    def _evaluate(self, points: Floats, *, with_gradient: bool) -> tuple[Floats, Floats]:
-        """Return the residual and the derivatives (3, m, 6) by the neighbours.
+    def moved(self, points: Floats, step: Floats) -> Floats:
+        """Return the vertices after a step (3 · free vertices,) of those that may move."""
+        out = points.copy()
+        out[self.is_free] += step.reshape(-1, 3)
+        return out
+
+    def evaluate(self, points: Floats, *, with_gradient: bool) -> tuple[Floats, Floats]:
+        """Return the residual (m,) and its derivatives (3, m, 6) by the neighbours' places.
 
         With spokes e_i and facet normals n_i the derivative is e_i × (n_i − n_{i−1}) / |e_i|².
         """

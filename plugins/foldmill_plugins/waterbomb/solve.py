@@ -7,12 +7,11 @@ and grows tenfold where a step makes things worse (thesis 6.1.2 uses Levenberg�
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill_plugins.waterbomb.jacobian import Stars
 from foldmill_plugins.waterbomb.linear import Factorised
 
 Floats = NDArray[np.float64]
@@ -23,6 +22,19 @@ FIRST_RAISE = 1e-6
 """λ after a first failed step, as the same share."""
 MOST_RAISES = 12
 """How often λ is raised tenfold before the search is given up."""
+
+
+class Conditions(Protocol):
+    """What makes a mesh developable, as far as the search must know."""
+
+    def residual(self, points: Floats) -> Floats:
+        """Return (m,) angle sums minus 2π, rad; points : (V, 3)."""
+
+    def linearised(self, points: Floats) -> tuple[Floats, Any]:
+        """Return the residual and its sparse Jacobian (m, n) by what may move."""
+
+    def moved(self, points: Floats, step: Floats) -> Floats:
+        """Return the vertices (V, 3) after a step (n,)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +66,7 @@ class Developed:
         return self.error <= self.tolerance
 
 
-def develop(stars: Stars, points: Floats, tolerance: float, most: int) -> Developed:
+def develop(stars: Conditions, points: Floats, tolerance: float, most: int) -> Developed:
     """Return the developable mesh nearest to the base mesh points (V, 3), step by step.
 
     tolerance : deg, of e_total; most : iterations. Never raises for a search that fails.
@@ -86,7 +98,7 @@ def _extremes(residual: Floats) -> tuple[float, float, float]:
 
 
 def _step(
-    stars: Stars,
+    stars: Conditions,
     points: Floats,
     residual: Floats,
     jacobian: Any,
@@ -100,8 +112,7 @@ def _step(
     for _ in range(MOST_RAISES):
         weights = solver.solve(gram, damping * scale, residual)
         if weights is not None:
-            moved = points.copy()
-            moved[stars.is_free] -= (jacobian.T @ weights).reshape(-1, 3)
+            moved = stars.moved(points, -(jacobian.T @ weights))
             after = stars.residual(moved)
             if np.isfinite(after).all() and (after @ after < before or e_total(after) < 1e-11):
                 return moved, FLOOR if damping <= FIRST_RAISE else damping / 10
