@@ -15,6 +15,7 @@ from foldmill.check.developability import angle_sums
 from foldmill_plugins.waterbomb import DESIGN
 from foldmill_plugins.waterbomb.base import Offsets, base_mesh, closed_topology
 from foldmill_plugins.waterbomb.build import E_TOTAL, Build
+from foldmill_plugins.waterbomb.closeness import mesh_distances, target_samples
 from foldmill_plugins.waterbomb.curvature import flat_metric
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.jacobian import Stars
@@ -418,6 +419,35 @@ def test_the_sheet_is_as_large_as_asked_for(sized: str, axis: int) -> None:
     assert np.ptp(fold.pattern.vertices, axis=0)[axis] == pytest.approx(250)
     unit = made(sized="unit", size=50.0)
     assert unit.meta["mm_per_unit"] == 50
+
+
+def test_every_measure_of_closeness_is_told_and_agrees_with_a_slow_one() -> None:
+    params = DESIGN.presets["catenoid-8x6"]
+    told = DESIGN.report("closeness", params)
+    build = Build(params)
+    points, faces = build.developed.points, build.topology.faces
+    places = target_samples(Target.of(build.surface), 8)[0]
+    exact = mesh_distances(places, points[faces])
+    share = np.linspace(0, 1, 40)
+    a, b = (grid.ravel() for grid in np.meshgrid(share, share))
+    inside = np.column_stack([a, b, 1 - a - b])[a + b <= 1]
+    cloud = np.einsum("sk,fkc->fsc", inside, points[faces]).reshape(-1, 3)
+    slow = np.array([np.linalg.norm(cloud - place, axis=1).min() for place in places])
+    assert (exact <= slow + 1e-12).all()
+    assert (slow - exact).max() < 0.03
+    assert told["vertices_mean"] == DESIGN.run(params).meta["distance"]["mean"]
+    assert 0 < told["facets_mean"] < told["vertices_largest"]
+    assert told["reverse_mean"] < told["reverse_largest"]
+    assert 1 < told["edge_ratio"] < 10
+
+
+def test_convergence_is_told_step_by_step_and_squares_its_error() -> None:
+    told = DESIGN.report("convergence", DESIGN.presets["sphere"])
+    errors = told["e_total_deg"]
+    assert len(errors) == told["iterations"] + 1
+    assert all(b < a for a, b in itertools.pairwise(errors))
+    assert errors[3] < 10 * (errors[2] / 30) ** 2 * 30
+    assert max(told["e_max_deg"][-1], told["e_min_deg"][-1]) == pytest.approx(errors[-1], abs=1e-12)
 
 
 def test_the_surface_is_told_by_its_kind() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from foldmill import Design, hookimpl
+from foldmill_plugins.waterbomb.closeness import closeness
+from foldmill_plugins.waterbomb.convergence import convergence
 from foldmill_plugins.waterbomb.feasibility import feasibility
 from foldmill_plugins.waterbomb.generate import generate
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -14,7 +16,11 @@ DESIGN = Design(
     params=WaterbombParams,
     generate=generate,
     presets=PRESETS,
-    reports={"feasibility": feasibility},
+    reports={
+        "feasibility": feasibility,
+        "convergence": convergence,
+        "closeness": closeness,
+    },
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 6",),
 )
 

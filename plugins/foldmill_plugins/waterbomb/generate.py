@@ -13,6 +13,7 @@ from foldmill.check.penetration import penetrating_faces
 from foldmill.folded import fold_pattern
 from foldmill_plugins.waterbomb import simple, status
 from foldmill_plugins.waterbomb.build import Build
+from foldmill_plugins.waterbomb.convergence import steps
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.feasibility import promised, warned
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -148,11 +149,7 @@ def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
         "feasibility": promised(build),
-        "convergence": {
-            "iterations": found.iterations,
-            "e_total_deg": list(found.errors),
-            "max_min_mean_deg": [list(each) for each in found.extremes],
-        },
+        "convergence": steps(found),
         "distance": {"mean": float(away.mean()), "largest": float(away.max())},
         "mm_per_unit": scale,
     }
