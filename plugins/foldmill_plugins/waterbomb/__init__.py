@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from foldmill import Design, hookimpl
-from foldmill_plugins.waterbomb.closeness import closeness
-from foldmill_plugins.waterbomb.convergence import convergence
-from foldmill_plugins.waterbomb.feasibility import feasibility
+from foldmill_plugins.waterbomb import closeness, convergence, feasibility
 from foldmill_plugins.waterbomb.generate import generate
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.presets import PRESETS
@@ -17,9 +15,9 @@ DESIGN = Design(
     generate=generate,
     presets=PRESETS,
     reports={
-        "feasibility": feasibility,
-        "convergence": convergence,
-        "closeness": closeness,
+        "feasibility": feasibility.report,
+        "convergence": convergence.report,
+        "closeness": closeness.report,
     },
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 6",),
 )

@@ -24,7 +24,7 @@ INNER = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4], [2, 2, 2]]) / 6
 """Barycentric middles of the four like parts of a triangle."""
 
 
-def closeness(params: WaterbombParams) -> dict[str, Any]:
+def report(params: WaterbombParams) -> dict[str, Any]:
     """Report distances as shares of the diagonal of the target's bounding box.
 
     Raises ImpossibleGeometry where there is no base mesh.

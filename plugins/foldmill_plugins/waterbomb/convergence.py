@@ -9,7 +9,7 @@ from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.solve import Developed
 
 
-def convergence(params: WaterbombParams) -> dict[str, Any]:
+def report(params: WaterbombParams) -> dict[str, Any]:
     """Report the angle sums and their errors at the base mesh and after every step."""
     return steps(Build(params).developed)
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from foldmill.finding import Finding, Severity
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.metric import MOST_LEFT
 from foldmill_plugins.waterbomb.params import WaterbombParams
 
 
-def feasibility(params: WaterbombParams) -> dict[str, Any]:
+def report(params: WaterbombParams) -> dict[str, Any]:
     """Report whether a field of depths takes the target's curvature away; nothing is solved."""
     build = Build(params)
     return {**promised(build), "start": build.start, "advice": warned(build).strip() or "none"}
@@ -22,6 +23,15 @@ def promised(build: Build) -> dict[str, Any]:
         "curvature_left": build.promise.left,
         "is_likely": build.promise.is_feasible,
     }
+
+
+def findings(build: Build) -> tuple[Finding, ...]:
+    """Return the warning, where there is one, as a check tells it."""
+    said = warned(build).strip()
+    if not said:
+        return ()
+    remedy = "Take another n_u and n_v or another depth, and look closely at the result."
+    return (Finding("feasibility", Severity.WARNING, "target", said, remedy),)
 
 
 def warned(build: Build) -> str:

@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from foldmill import Assignment, CreasePattern, Fold, FoldedForm, ImpossibleGeometry, Symmetry
 from foldmill.check.penetration import penetrating_faces
 from foldmill.folded import fold_pattern
-from foldmill_plugins.waterbomb import simple, status
+from foldmill_plugins.waterbomb import feasibility, simple, status
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.convergence import steps
 from foldmill_plugins.waterbomb.distance import Target
-from foldmill_plugins.waterbomb.feasibility import promised, warned
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.status import Status
 from foldmill_plugins.waterbomb.topology import Indices, Topology
@@ -52,7 +51,7 @@ def generate(params: WaterbombParams) -> Fold:
     )
     return replace(
         fold,
-        findings=status.findings(pattern, cut.assignments),
+        findings=(*feasibility.findings(build), *status.findings(pattern, cut.assignments)),
         meta=_facts(build, state, scale),
     )
 
@@ -64,7 +63,7 @@ def require_converged(build: Build) -> None:
         return
     raise ImpossibleGeometry(
         f"No developable form was found: after {found.iterations} steps the angles round a vertex "
-        f"still miss 360° by {found.error:.3g}°. {warned(build)}"
+        f"still miss 360° by {found.error:.3g}°. {feasibility.warned(build)}"
         "Take another n_u and n_v, a free boundary, another start, or a target that is curved less."
     )
 
@@ -148,7 +147,7 @@ def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
         "status": {"verdicts": list(state.verdicts), **vars(state)},
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
-        "feasibility": promised(build),
+        "feasibility": feasibility.promised(build),
         "convergence": steps(found),
         "distance": {"mean": float(away.mean()), "largest": float(away.max())},
         "mm_per_unit": scale,
