@@ -343,6 +343,29 @@ def test_facets_through_each_other_are_told_though_all_else_is_well() -> None:
     assert codes == ["penetration", "feasibility"]
 
 
+def _helicoid(u: np.ndarray, v: np.ndarray) -> Jet:
+    c, s, o = np.cos(u), np.sin(u), np.zeros_like(u)
+    columns = (
+        *((v * c, v * s, 0.2 * u), (-v * s, v * c, o + 0.2), (c, s, o)),
+        *((-v * c, -v * s, o), (-s, c, o), (o, o, o)),
+    )
+    return Jet(*(np.column_stack(each) for each in columns))
+
+
+def test_a_form_without_fault_whose_sheet_lies_upon_itself_is_told_as_such(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    stairs = Surface("helicoid", _helicoid, (0.0, 4 * np.pi), (0.3, 1.0))
+    monkeypatch.setitem(TABLE, "cylinder", stairs)
+    fold = DESIGN.run(on("cylinder", 60, 6, **PLAIN))
+    assert fold.meta["status"]["verdicts"] == ["flat-overlap"]
+    report = check(fold)
+    assert {finding.code for finding in report.findings} == {
+        *("edges-cross", "outline", "flat-overlap")
+    }
+    assert report.figures["penetrations"] == 0
+
+
 def test_creases_that_fold_the_other_way_are_told_as_such() -> None:
     fold = DESIGN.run(on("torus", 55, 10, depth=0.2))
     assert fold.meta["status"]["verdicts"] == ["wrong-signed"]

@@ -51,7 +51,7 @@ def generate(params: WaterbombParams) -> Fold:
     )
     return replace(
         fold,
-        findings=(*feasibility.findings(build), *status.findings(pattern, cut.assignments)),
+        findings=(*feasibility.findings(build), *status.findings(pattern, cut.assignments, state)),
         meta=_facts(build, state, scale),
     )
 

@@ -45,8 +45,25 @@ def wrong_signed(pattern: CreasePattern, wanted: Codes) -> list[int]:
     return [int(edge) for edge in (pattern.assignments != wanted).nonzero()[0]]
 
 
-def findings(pattern: CreasePattern, wanted: Codes) -> tuple[Finding, ...]:
-    """Return what no general check can know: that creases fold against the waterbomb's pattern."""
+def findings(pattern: CreasePattern, wanted: Codes, state: Status) -> tuple[Finding, ...]:
+    """Return what no general check can tell as well: wrong signs, and a sheet upon itself."""
+    return (*_signs(pattern, wanted), *_overlap(state))
+
+
+def _overlap(state: Status) -> tuple[Finding, ...]:
+    if state.is_flat_simple:
+        return ()
+    finding = Finding(
+        "flat-overlap",
+        Severity.ERROR,
+        "outline",
+        "The form is developable, but laid flat its sheet lies upon itself.",
+        "Take another depth, or make only a part of the target.",
+    )
+    return (finding,)
+
+
+def _signs(pattern: CreasePattern, wanted: Codes) -> tuple[Finding, ...]:
     wrong = wrong_signed(pattern, wanted)
     if not wrong:
         return ()
