@@ -166,30 +166,28 @@ def peers() -> None:
         )
 
 
-SIZES = (10, 20, 40, 80, 160, 224)
+SIZES = {
+    "hyperbolic-paraboloid": [(10, 10), (20, 20), (40, 40), (80, 80), (160, 160), (224, 224)],
+    "torus": [(55, 10), (110, 20), (220, 48), (500, 100)],
+}
 
 
 def growth(largest: int) -> None:
     """Print how the search grows with the bases, without and with symmetry to help."""
     print(f"\n{'':32}{'bases':>8}{'solve s':>9}{'it':>4}{'exponent':>10}{'MB so far':>11}")
-    for kind, shape in (("hyperbolic-paraboloid", (1, 1)), ("torus", (5, 1))):
+    for kind, sizes in SIZES.items():
         before: tuple[int, float] | None = None
-        for n in SIZES:
-            n_u, n_v = (
-                (n, n) if shape == (1, 1) else (max(3, 2 * round(1.12 * n)), max(2, n // 2 * 2))
-            )
-            if n_u * n_v > 1.01 * largest:
-                break
+        for n_u, n_v in [each for each in sizes if each[0] * each[1] <= 1.01 * largest]:
+            bases = n_u * n_v
             params = DESIGN.validate({"surface": {"kind": kind}, "n_u": n_u, "n_v": n_v})
-            seconds, found = best(lambda params=params: solved(params), 1 if n > 40 else 3)  # type: ignore[misc]
-            power = ""
-            if before is not None:
-                power = f"{np.log(seconds / before[1]) / np.log(n_u * n_v / before[0]):.2f}"
-            before = (n_u * n_v, seconds)
+            rounds = 1 if bases > 2000 else ROUNDS
+            seconds, found = best(lambda params=params: solved(params), rounds)  # type: ignore[misc]
+            slope = np.log(seconds / before[1]) / np.log(bases / before[0]) if before else None
+            before = (bases, seconds)
             used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
             print(
-                f"{kind + f' {n_u} × {n_v}':32}{n_u * n_v:8}{seconds:9.2f}{found.iterations:4}"
-                f"{power:>10}{used:11.0f}"
+                f"{kind + f' {n_u} × {n_v}':32}{bases:8}{seconds:9.2f}{found.iterations:4}"
+                f"{'' if slope is None else f'{slope:.2f}':>10}{used:11.0f}"
             )
 
 
