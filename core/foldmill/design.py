@@ -23,6 +23,7 @@ from foldmill.errors import (
     UnknownName,
     one_line,
 )
+from foldmill.finding import Finding
 from foldmill.folded import FoldedForm
 from foldmill.handle import Handle
 from foldmill.motion import Motion
@@ -99,6 +100,8 @@ class Fold:
     meta: Mapping[str, Any] = field(default_factory=dict)
     """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys;
     ``read`` where it comes from a file."""
+    findings: tuple[Finding, ...] = ()
+    """What only the family can know is wrong with it; ``check`` tells it with its own."""
 
     def __post_init__(self) -> None:
         if self.folded is not None and len(self.folded.vertices) != len(self.pattern.vertices):

@@ -31,6 +31,8 @@ Signs = NDArray[np.int8]
 
 _BLOCK = 2_000_000
 """Heights over planes looked at in one go: about 50 MB."""
+MANY = 2_000_000
+"""Vertices times faces beyond which a tree finds the facets that are near each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,10 @@ def penetrations(
     among : faces of interest; only pairs with one of them are looked at (default: all).
     """
     eps = PENETRATION * float(np.ptp(vertices, axis=0).max())
+    if len(vertices) * len(faces) > MANY:
+        from foldmill.check import large
+
+        return large.penetrations(vertices, faces, eps, among)
     is_wanted = np.full(len(faces), among is None)
     is_wanted[np.asarray([] if among is None else among, np.intp)] = True
     mesh = _Mesh(vertices, faces, is_wanted, eps)
@@ -206,7 +212,7 @@ def _along_edges(mesh: _Mesh, edges: Indices) -> Iterator[Indices]:
         passes = mesh.over(left[row], face) * mesh.over(right[row], face) < 0
         row, face = _kept(passes, row, face)
         if len(row):
-            inside = _lengths_inside(mesh.vertices[edges[block[row]]], mesh.corners[face], mesh.eps)
+            inside = lengths_inside(mesh.vertices[edges[block[row]]], mesh.corners[face], mesh.eps)
             row, face = _kept(inside > mesh.eps, row, face)
         yield np.column_stack([np.repeat(face, 2), own[row].ravel()])
 
@@ -215,7 +221,7 @@ def _kept(flags: Flags, a: Indices, b: Indices) -> tuple[Indices, Indices]:
     return a[flags], b[flags]
 
 
-def _lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
+def lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
     """Return the lengths (n,) of segments (n, 2, 3), each in the plane of a triangle, inside it.
 
     triangles : (n, 3, 3) mm; eps : mm by which to keep away from their sides.

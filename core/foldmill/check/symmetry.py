@@ -25,7 +25,7 @@ def half_wedge_decides(symmetry: Symmetry, vertices: Floats, faces: Indices) -> 
         return False
     order, wedge = symmetry.order, vertices[faces[symmetry.wedge]]
     return _is_between_planes(wedge, order, _slack(vertices)) and _covers(
-        vertices, faces, _copies(wedge, order, is_mirrored=True)
+        vertices, faces, _copies(wedge, order)
     )
 
 
@@ -42,8 +42,7 @@ def fault(symmetry: Symmetry, vertices: Floats, faces: Indices) -> str:
             f"a half wedge of {len(wedge)} faces, mirrored and turned {order} times, is not the "
             f"whole form of {len(faces)} faces"
         )
-    step = _copies(vertices[faces], order, is_mirrored=False)[len(faces) : 2 * len(faces)]
-    if order > 1 and not _covers(vertices, faces, step):
+    if order > 1 and not _covers(vertices, faces, _turned(vertices[faces], order, 1)):
         return f"turned by 360°/{order} about the z axis, the form is another"
     return ""
 
@@ -59,15 +58,16 @@ def _is_between_planes(corners: Floats, order: int, slack: float) -> bool:
     return bool((inside >= -slack).all() or (inside <= slack).all())
 
 
-def _copies(corners: Floats, order: int, *, is_mirrored: bool) -> Floats:
-    """Return triangles (k, 3, 3) turned N times about z, and mirrored about y = 0 as well."""
-    own = [corners, corners * np.array([1.0, -1.0, 1.0])] if is_mirrored else [corners]
-    every = np.concatenate(own)
-    turned = []
-    for turn in range(order):
-        cos, sin = np.cos(2 * np.pi * turn / order), np.sin(2 * np.pi * turn / order)
-        turned.append(every @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]))
-    return np.concatenate(turned)
+def _copies(corners: Floats, order: int) -> Floats:
+    """Return triangles (k, 3, 3) mirrored about y = 0, and both turned N times about z."""
+    every = np.concatenate([corners, corners * np.array([1.0, -1.0, 1.0])])
+    return np.concatenate([_turned(every, order, turn) for turn in range(order)])
+
+
+def _turned(corners: Floats, order: int, turn: int) -> Floats:
+    cos, sin = np.cos(2 * np.pi * turn / order), np.sin(2 * np.pi * turn / order)
+    out: Floats = corners @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return out
 
 
 def _covers(vertices: Floats, faces: Indices, triangles: Floats) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from foldmill import CreasePattern, Fold
 from foldmill.check import NOT_CHECKED, check
-from foldmill.finding import Severity
+from foldmill.finding import Finding, Severity
 from foldmill_plugins.tuck import DESIGN
 
 
@@ -43,3 +45,10 @@ def test_a_pattern_alone_is_told_what_was_not_checked(stool: Fold) -> None:
 def test_nothing_at_all_is_no_sheet_and_breaks_no_check() -> None:
     empty = CreasePattern([], [], [], [], [])  # type: ignore[arg-type]
     assert check(Fold(empty)).findings[0].code == "outline"
+
+
+def test_what_only_the_family_can_find_is_told_with_all_else(stool: Fold) -> None:
+    own = Finding("crease-sign", Severity.ERROR, "edge 3", "It folds the other way.")
+    report = check(replace(stool, findings=(own,)))
+    assert report.findings == (own,)
+    assert report.has_errors
