@@ -149,4 +149,4 @@ def test_a_point_on_the_axis_but_for_rounding_is_on_no_side_of_it() -> None:
     points[3] = {"a": 64.52105600234265, "branch": -1}
     told = DESIGN.report("free-phi", DESIGN.validate({"n": 6, "phi": 180, "points": points}))
     assert told["free_at_phi"]
-    assert told["free_deg"][-1][1] == 180  # type: ignore[index]
+    assert told["free_deg"][-1][1] == 180

@@ -118,7 +118,6 @@ def test_a_form_that_does_not_fold_is_moved_only_when_that_is_wanted(foldmill: R
     assert json.loads(Path("bad.fold").read_text())["foldmill:errors"] == ["penetration"]
 
 
-
 def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
     told = foldmill("design", "tuck", "--help").out
     assert "--points.3.a" in told
