@@ -42,7 +42,7 @@ def one_by_one(design: Design[P], base: P, columns: Mapping[str, Column]) -> Out
         rows.append(measured)
     names = sorted({name for measured in rows for name in measured})
     figures = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
-    return Outcomes(codes, at, figures)
+    return Outcomes(codes, at, figures, alone=count)
 
 
 def with_values(design: Design[P], base: P, values: Mapping[str, float]) -> P:

@@ -8,7 +8,7 @@ that every row gets the answer that generate and check would give.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -68,7 +68,7 @@ def _batch(design: Design[P], prepare: Prepare, base: P, columns: Mapping[str, C
     left = rows if task is None else rows[_judged(task, rows, out)]
     if len(left):
         _merge(out, left, one_by_one(design, base, _picked(given, left)))
-    return out
+    return replace(out, alone=len(left))
 
 
 def _picked(columns: Mapping[str, Column], rows: Indices) -> dict[str, Column]:

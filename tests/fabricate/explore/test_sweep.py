@@ -4,6 +4,7 @@ import csv as csv_reader
 import io
 from collections.abc import Mapping
 from dataclasses import replace
+from math import cos, pi
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from foldmill import Design, Fold, FoldmillError, Outcome, Outcomes
+from foldmill.axisymmetric.points import LinePoint
 from foldmill.batch import Column
 from foldmill.configurations import one_by_one, with_values
 from foldmill_fabricate.errors import EngineFailed
@@ -26,6 +28,16 @@ BOWL = replace(rotational.DESIGN, batch=None)
 """A family whose rows are generated and checked one by one."""
 SERIAL = Local(1)
 RUGBY = TUBE.preset("rugby")
+UPRIGHT = RotationalParams(
+    n=8,
+    points={
+        i: LinePoint(a=a, gamma=gamma)
+        for i, (a, gamma) in enumerate(
+            [(110, None), (110 / cos(pi / 8), None), (172.48, -108.2), (200, None)], start=1
+        )
+    },
+)
+"""Its point 2 stands square over point 1, so that rows about it are generated one by one."""
 
 
 def ranges(*texts: str) -> list[Range]:
@@ -200,6 +212,26 @@ def test_a_sweep_goes_on_where_it_was_broken_off(tmp_path: Path) -> None:
     assert csv(sweep) == csv(explore(BOWL, base, asked, SERIAL))
     assert csv(explore(design, base, asked, SERIAL, resume=tmp_path)) == csv(sweep)
     assert len(calls) == 41
+
+
+@pytest.mark.parametrize(
+    ("base", "asked", "most"),
+    [
+        (BOWL.preset("bowl-n8"), ("phi=20:90:0.05", "n=4:12:1"), 1_000_000),
+        (with_values(BOWL, BOWL.preset("bowl-n8"), {"slit": 1}), ("phi=20:90:0.05",), 16),
+        (with_values(BOWL, UPRIGHT, {"phi": 60}), ("phi=20:90:0.01",), 16),
+        (RUGBY, ("beta=0:359:1", "L=0:30:0.5"), 1_000_000),
+        (with_values(TUBE, RUGBY, {"tab": 3}), ("beta=0:359:1", "L=0:30:0.5"), 64),
+    ],
+)
+def test_what_a_batch_leaves_to_one_by_one_is_cut_as_small_as_without_a_batch(
+    base: Any, asked: tuple[str, ...], most: int
+) -> None:
+    design = TUBE if isinstance(base, type(RUGBY)) else rotational.DESIGN
+    task = Task(design, base, grid(design, base, ranges(*asked)))
+    assert task.chunk_rows <= most
+    assert task.is_short == (most > 1000)
+    assert task.is_short or task.chunks > 80
 
 
 def test_a_chunk_that_is_not_whole_is_computed_again(tmp_path: Path) -> None:
