@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from foldmill import Design, Params
 from foldmill.batch import NOWHERE, Column, Outcomes
 from foldmill.configurations import outcomes
-from foldmill.errors import InvalidInput, one_line
+from foldmill.errors import BrokenBatch, InvalidInput, one_line
 from foldmill_fabricate.explore.grid import Grid
 
 FAULT = 255
@@ -96,7 +96,8 @@ class Task:
 def compute(task: Task, number: int) -> Chunk:
     """Return what becomes of the rows of a chunk; a row that breaks the family is told, not raised.
 
-    Raises InvalidInput where no row can be computed: a parameter that the family does not know.
+    Raises InvalidInput or BrokenBatch where no row can be computed: a parameter that the family
+    does not know, a batch whose answers mean nothing.
     """
     rows = task.rows(number)
     faults: dict[int, str] = {}
@@ -122,7 +123,7 @@ def _computed(task: Task, rows: NDArray[np.intp], faults: dict[int, str]) -> lis
     """Compute rows together; where that breaks, halve them until the rows at fault are found."""
     try:
         return [outcomes(task.design, task.base, task.grid.columns(rows))]
-    except InvalidInput:
+    except (InvalidInput, BrokenBatch):
         raise
     except Exception as error:
         if len(rows) == 1:

@@ -15,6 +15,7 @@ from foldmill import Design, Fold, FoldmillError, Outcome, Outcomes
 from foldmill.axisymmetric.points import LinePoint
 from foldmill.batch import Column
 from foldmill.configurations import one_by_one, with_values
+from foldmill.errors import BrokenBatch
 from foldmill_fabricate.errors import EngineFailed
 from foldmill_fabricate.explore import Local, Range, csv, explore, summary
 from foldmill_fabricate.explore.chunk import FAULT, Task, compute
@@ -164,6 +165,18 @@ def test_a_batch_that_breaks_down_at_one_row_gives_all_the_others() -> None:
     assert list(sweep.faults) == [8]
     assert sweep.counts["fault"] == 1
     assert sweep.outcomes.figures["height_mm"][8] != sweep.outcomes.figures["height_mm"][8]
+
+
+def nameless_batch(base: RotationalParams, columns: Mapping[str, Column]) -> Outcomes:
+    found = one_by_one(BOWL, base, columns)
+    return replace(found, codes=np.where(columns["phi"] == 80, 77, found.codes).astype(np.uint8))
+
+
+@pytest.mark.parametrize("engine", [SERIAL, Local(2)])
+def test_a_batch_whose_answers_mean_nothing_ends_the_sweep_with_a_sentence(engine: Local) -> None:
+    broken = replace(BOWL, batch=nameless_batch)
+    with pytest.raises(BrokenBatch, match="'rotational' is broken: it gives row . the code 77"):
+        explore(broken, BOWL.preset("bowl-n8"), ranges("phi=60:100:2.5"), engine)
 
 
 def lethal(params: RotationalParams) -> Fold:
