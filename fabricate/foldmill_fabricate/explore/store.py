@@ -1,6 +1,7 @@
 """Chunks kept on disk, so that a sweep that was broken off goes on where it was.
 
-A sweep has a folder of its own, named by the hash of all that decides its rows; a chunk is a file.
+A sweep has a folder of its own, named by the hash of all that decides its rows; a chunk is a file:
+the SHA-256 of what follows, then arrays as NumPy keeps them.
 """
 
 from __future__ import annotations
@@ -11,15 +12,15 @@ from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from foldmill_fabricate.explore.chunk import Chunk, Task
 from foldmill_fabricate.files import write_whole
 
-FORM = 1
+FORM = 2
 """Of the files; another form is another sweep."""
+DIGEST = sha256().digest_size
 
 
 def key(task: Task) -> str:
@@ -55,22 +56,23 @@ class Store:
             **figures,
         }
         np.savez_compressed(out, **arrays)
-        write_whole(self._file(chunk.number), out.getvalue())
+        content = out.getvalue()
+        write_whole(self._file(chunk.number), sha256(content).digest() + content)
 
     def load(self, number: int) -> Chunk | None:
         """Return a chunk, or None where it is not there whole."""
-        file = self._file(number)
-        if not file.exists():
-            return None
         try:
-            with np.load(BytesIO(file.read_bytes())) as kept:
-                chunk = _chunk(number, dict(kept))
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            written = self._file(number).read_bytes()
+        except OSError:
             return None
-        return chunk if len(chunk.codes) == len(self.task.rows(number)) else None
+        seal, content = written[:DIGEST], written[DIGEST:]
+        if sha256(content).digest() != seal:
+            return None
+        with np.load(BytesIO(content)) as kept:
+            return _chunk(number, dict(kept))
 
     def _file(self, number: int) -> Path:
-        return self.folder / f"{number:06d}.npz"
+        return self.folder / f"{number:06d}.chunk"
 
 
 def _chunk(number: int, kept: dict[str, np.ndarray]) -> Chunk:

@@ -250,11 +250,30 @@ def test_what_a_batch_leaves_to_one_by_one_is_cut_as_small_as_without_a_batch(
 def test_a_chunk_that_is_not_whole_is_computed_again(tmp_path: Path) -> None:
     asked, base = ranges("phi=60:100:1"), BOWL.preset("bowl-n8")
     sweep = explore(BOWL, base, asked, SERIAL, resume=tmp_path)
-    files = sorted(tmp_path.rglob("*.npz"))
+    files = sorted(file for file in tmp_path.rglob("*") if file.is_file())
     assert len(files) == 3
     files[0].write_bytes(files[0].read_bytes()[:100])
     files[1].write_bytes(b"")
     assert csv(explore(BOWL, base, asked, SERIAL, resume=tmp_path)) == csv(sweep)
+
+
+def test_a_chunk_of_which_one_bit_has_flipped_is_not_believed(tmp_path: Path) -> None:
+    asked, base = ranges("phi=60:75:1"), BOWL.preset("bowl-n8")
+    task = Task(BOWL, base, grid(BOWL, base, asked))
+    store, chunk = Store(tmp_path, task), compute(task, 0)
+    store.save(chunk)
+    (file,) = (file for file in tmp_path.rglob("*") if file.is_file())
+    whole = file.read_bytes()
+    rng = np.random.default_rng(4)
+    for place in rng.integers(0, len(whole), 300).tolist():
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << int(rng.integers(8))
+        file.write_bytes(flipped)
+        assert store.load(0) is None
+    file.write_bytes(whole)
+    kept = store.load(0)
+    assert kept is not None
+    assert np.array_equal(kept.codes, chunk.codes)
 
 
 def test_another_sweep_has_another_key() -> None:
