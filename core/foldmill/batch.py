@@ -84,8 +84,8 @@ def breaches(found: object, rows: int, taken: Iterable[str]) -> Iterator[str]:
 
 
 def _wrong_types(found: Outcomes) -> Iterator[str]:
-    columns = [("codes", found.codes, np.uint8), ("at", found.at, np.int32)]
-    figures = [(f"figure {name!r}", one, np.float64) for name, one in found.figures.items()]
-    for name, column, wanted in (*columns, *figures):
-        if column.dtype != wanted:
-            yield f"its {name} must be {np.dtype(wanted)}, not {column.dtype}"
+    kinds = {"codes": (found.codes.dtype, "uint8"), "at": (found.at.dtype, "int32")}
+    figures = {f"figure {name!r}": (one.dtype, "float64") for name, one in found.figures.items()}
+    for name, (kind, wanted) in (kinds | figures).items():
+        if kind != wanted:
+            yield f"its {name} must be {wanted}, not {kind}"

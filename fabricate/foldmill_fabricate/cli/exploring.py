@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 SHOWN_REGIONS = 8
 DEFAULT_AT_MOST = 1_000_000
 """That of the package explore; it is not imported for the sake of --help."""
+BROKEN_OFF = 130
+"""The exit code that shells know for Ctrl-C."""
 PICKED = (".fold", ".svg", ".png", ".glb", ".stl", ".obj")
 
 
@@ -77,8 +79,14 @@ def explore(
     base = gather(offered, preset, params, context.args)
     ranges = [Range.read(text) for text in vary or []]
     engine = _engine(jobs, scheduler)
-    with SweepProgress(_place(engine)) as told:
-        sweep = run(offered, base, ranges, engine, at_most=at_most, resume=resume, progress=told)
+    try:
+        with SweepProgress(_place(engine)) as told:
+            sweep = run(
+                offered, base, ranges, engine, at_most=at_most, resume=resume, progress=told
+            )
+    except KeyboardInterrupt as stop:
+        typer.echo(str(stop) or "Broken off.", err=True)
+        raise typer.Exit(BROKEN_OFF) from None
     if output:
         _write_table(sweep, output)
     say(as_json, summary(sweep), _text(sweep))

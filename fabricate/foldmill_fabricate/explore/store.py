@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from foldmill_fabricate.explore.chunk import Chunk, Task
+from foldmill_fabricate.explore.chunk import Chunk, Task, compute
 from foldmill_fabricate.files import write_whole
 
 FORM = 2
@@ -59,6 +59,9 @@ class Store:
         content = out.getvalue()
         write_whole(self._file(chunk.number), sha256(content).digest() + content)
 
+    def __contains__(self, number: int) -> bool:
+        return self._file(number).exists()
+
     def load(self, number: int) -> Chunk | None:
         """Return a chunk, or None where it is not there whole."""
         try:
@@ -73,6 +76,13 @@ class Store:
 
     def _file(self, number: int) -> Path:
         return self.folder / f"{number:06d}.chunk"
+
+
+def compute_and_keep(task: Task, store: Store, number: int) -> Chunk:
+    """Compute a chunk and keep it where it was computed: it is not lost with whoever waits."""
+    chunk = compute(task, number)
+    store.save(chunk)
+    return chunk
 
 
 def _chunk(number: int, kept: dict[str, np.ndarray]) -> Chunk:

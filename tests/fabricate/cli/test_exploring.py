@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from foldmill_fabricate.cli import main
+from foldmill_fabricate.cli.progress import SweepProgress
 
 SWEEP = ("explore", "rotational", "--vary", "phi=30:90:5", "--jobs", "1")
 
@@ -81,6 +82,20 @@ def test_a_sweep_is_resumed_from_its_folder(foldmill: Run) -> None:
     told = foldmill(*SWEEP, "--resume", "kept", "-o", "b.csv")
     assert "13 of them done before" in told.err
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+def test_a_sweep_that_is_broken_off_ends_with_where_it_is_kept(
+    foldmill: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(told: SweepProgress, done: int, rows: int) -> None:
+        if done:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(SweepProgress, "__call__", interrupted)
+    told = foldmill("explore", "tuck", *SWEEP[2:3], "phi=80:100:1", "--jobs", "1", "--resume", "k")
+    assert told.code == 130
+    assert "Broken off. 1 of 2 chunks were done" in told.err
+    assert f"kept in {Path('k') / 'tuck'}" in told.err
 
 
 @pytest.mark.parametrize(

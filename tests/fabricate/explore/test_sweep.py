@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import csv as csv_reader
+import gc
 import io
 from collections.abc import Mapping
 from dataclasses import replace
@@ -175,7 +176,7 @@ def nameless_batch(base: RotationalParams, columns: Mapping[str, Column]) -> Out
 @pytest.mark.parametrize("engine", [SERIAL, Local(2)])
 def test_a_batch_whose_answers_mean_nothing_ends_the_sweep_with_a_sentence(engine: Local) -> None:
     broken = replace(BOWL, batch=nameless_batch)
-    with pytest.raises(BrokenBatch, match="'rotational' is broken: it gives row . the code 77"):
+    with pytest.raises(BrokenBatch, match=r"'rotational' is broken: it gives row \d the code 77"):
         explore(broken, BOWL.preset("bowl-n8"), ranges("phi=60:100:2.5"), engine)
 
 
@@ -198,6 +199,26 @@ def test_a_process_that_is_killed_ends_the_sweep_with_a_sentence_and_keeps_what_
         explore(deadly, base, asked, Local(2), resume=tmp_path)
     again = explore(BOWL, base, asked, SERIAL, resume=tmp_path)
     assert csv(again) == csv(explore(BOWL, base, asked, SERIAL))
+
+
+def stop(done: int, _: int) -> None:
+    """Break a sweep off, as Ctrl-C does, when its first chunk has come back."""
+    if done:
+        raise KeyboardInterrupt
+
+
+def test_what_was_done_when_a_sweep_is_broken_off_is_kept_and_it_is_said_where(
+    tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    asked, base = ranges("phi=30:110:1"), BOWL.preset("bowl-n8")
+    said = rf"Broken off\. \d of 6 chunks were done; .* They are kept in {tmp_path}.*goes on there"
+    with pytest.raises(KeyboardInterrupt, match=said):
+        explore(BOWL, base, asked, Local(2), resume=tmp_path, progress=stop)
+    gc.collect()
+    assert not [str(each.message) for each in recwarn]
+    told: list[int] = []
+    explore(BOWL, base, asked, SERIAL, resume=tmp_path, progress=lambda done, _: told.append(done))
+    assert told[0] >= 16
 
 
 def counted(calls: list[int], design: Design[Any]) -> Design[Any]:
