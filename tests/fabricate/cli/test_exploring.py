@@ -110,6 +110,15 @@ def test_a_sweep_that_is_broken_off_ends_with_where_it_is_kept(
         ([*SWEEP, "--pick", "13:a.fold"], "There is no row 13: the rows are 0 to 12"),
         ([*SWEEP, "--pick", "region9:a.fold"], "There is no region9"),
         ([*SWEEP, "--pick", "best:a.fold"], "'best' is neither a row's number nor regionK"),
+        ([*SWEEP, "--picture", "a.png", "--thumbnail", "999"], "There is no row 999: the rows are"),
+        ([*SWEEP, "--picture", "a.png", "--thumbnail", "top"], "'top' is neither a row's number"),
+        ([*SWEEP, "--thumbnail", "3"], "--thumbnail shows a form beside the map: name it"),
+        ([*SWEEP, "-o", "full/a.csv"], "full/a.csv: not a directory"),
+        ([*SWEEP, "--picture", "full/of/a.png"], "full/of/a.png: not a directory"),
+        ([*SWEEP, "--pick", "3:full/a.stl"], "full/a.stl: not a directory"),
+        ([*SWEEP, "--resume", "full"], "full/kept: not a directory"),
+        ([*SWEEP, "-o", "folder.csv"], "folder.csv: is a directory"),
+        ([*SWEEP, "--phi", "40"], "--phi 40 and --vary phi=… contradict each other"),
         ([*SWEEP, "--scheduler", "tcp://127.0.0.1:9"], "--jobs counts processes here"),
         ([*SWEEP[:-1], "0"], "0 processes compute nothing"),
         ([*SWEEP, "--at-most", "12"], "13 rows, more than 12"),
@@ -118,10 +127,13 @@ def test_a_sweep_that_is_broken_off_ends_with_where_it_is_kept(
 def test_what_means_nothing_is_refused_with_a_sentence(
     foldmill: Run, words: list[str], sentence: str
 ) -> None:
+    Path("full").write_text("a file, no folder")
+    Path("folder.csv").mkdir()
     told = foldmill(*words)
     assert told.code == 2
     assert sentence in told.err
     assert "Traceback" not in told.err
+    assert ("13 configurations" in told.err) == ("region9" in sentence)
     assert list(Path().glob("*.fold")) == []
 
 
