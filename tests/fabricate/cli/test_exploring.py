@@ -150,6 +150,15 @@ def commands() -> list[list[str]]:
     return [line.split()[1:] for line in lines if line.startswith("foldmill explore ")]
 
 
+def test_the_picks_of_the_page_are_written(foldmill: Run) -> None:
+    (words,) = (words for words in commands() if "--pick" in words)
+    told = foldmill(*words, "--jobs", "1")
+    assert told.code == 0
+    files = [word.split(":")[1] for word in words if word.endswith((".fold", ".glb"))]
+    assert len(files) == 2
+    assert all(Path(file).stat().st_size for file in files)
+
+
 @pytest.mark.parametrize("words", commands())
 def test_every_command_of_the_page_is_understood(foldmill: Run, words: list[str]) -> None:
     told = foldmill(*words, "--at-most", "0")
