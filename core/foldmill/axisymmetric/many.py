@@ -91,7 +91,7 @@ def _judged(task: Task, rows: Indices, out: Outcomes) -> Indices:
     if task.shape is not None:
         first, kind = alike(task.shape[sure])
         chosen = sure[first]
-    found = judge(task.strips.take(chosen), task.limits)
+    found = judge(task.strips.take(chosen), task.limits, among=len(out))
     codes, at = found.codes[kind], found.at[kind]
     is_open = codes >= CODES.TURNS_FREELY
     out.codes[rows[sure]] = np.where(is_open, Outcome.REFUSED, codes)

@@ -1,4 +1,4 @@
-"""What all rows of a sweep share, in words: the preset it is nearest to, and what differs from it."""
+"""What all rows of a sweep share, in words: the nearest preset, and what differs from it."""
 
 from __future__ import annotations
 

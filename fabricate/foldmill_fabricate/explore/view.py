@@ -22,6 +22,8 @@ from foldmill_fabricate.explore.sweep import WORDS, Sweep
 MOST_THUMBNAILS = 12
 THUMBNAILS = 8
 """As many as a picture chooses itself."""
+CENTRES = 4
+"""Of them, at most so many are centres of regions: what one map has at its rim is shown, too."""
 LEAST_SHARE = 0.02
 """Of the free cells that a region must have to be shown by its centre."""
 APART = 0.12
@@ -132,7 +134,7 @@ def _apart(centres: list[int], shape: tuple[int, ...]) -> list[int]:
     for place, spot in enumerate(spots):
         if np.linalg.norm(spots[taken] - spot, axis=1).min(initial=np.inf) >= APART:
             taken.append(place)
-    return [centres[place] for place in taken[:THUMBNAILS]]
+    return [centres[place] for place in taken[:CENTRES]]
 
 
 def _spread(cells: NDArray[np.bool_], chosen: list[int]) -> list[int]:

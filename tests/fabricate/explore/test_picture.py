@@ -121,7 +121,8 @@ def test_forms_beside_a_map_over_a_count_are_far_apart(orders: Bowls) -> None:
     places = np.stack(np.unravel_index(thumbnails(view(orders)), orders.grid.shape))
     places = places.T / np.array(orders.grid.shape)
     gaps = np.linalg.norm(places[:, None] - places, axis=2)
-    assert len(gaps) > 3
+    assert len(gaps) == THUMBNAILS
+    assert np.ptp(places, axis=0).min() > 0.7
     assert gaps[np.triu_indices(len(gaps), 1)].min() >= APART
 
 
