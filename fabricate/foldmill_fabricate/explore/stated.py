@@ -44,7 +44,8 @@ def _known(design: Design[Any]) -> Iterator[tuple[str, dict[str, Any]]]:
 
 def _distance(there: dict[str, Any], here: dict[str, Any], fixed: list[str]) -> int:
     """Return how many parameters differ, or are there and not here."""
-    return len(set(there) - set(here)) + sum(there.get(k, _ABSENT) != here[k] for k in fixed)
+    missing = len(set(there) - set(here))
+    return missing + len([name for name in fixed if there.get(name, _ABSENT) != here[name]])
 
 
 def _values(params: Params) -> dict[str, Any]:

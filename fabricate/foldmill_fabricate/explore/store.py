@@ -7,6 +7,7 @@ the SHA-256 of what follows, then arrays as NumPy keeps them.
 from __future__ import annotations
 
 import json
+import sys
 from hashlib import sha256
 from importlib.metadata import version
 from io import BytesIO
@@ -15,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from foldmill import Design
 from foldmill_fabricate.explore.chunk import Chunk, Task, compute
 from foldmill_fabricate.files import write_whole
 
@@ -24,17 +26,45 @@ DIGEST = sha256().digest_size
 
 
 def key(task: Task) -> str:
-    """Return the hash of a sweep: its family, versions, parameters, ranges and chunks."""
+    """Return the hash of a sweep: its family and its code, versions, parameters and ranges.
+
+    A family made inside a function or a notebook has no code of its own to read.
+    """
     stated = {
         "form": FORM,
         "foldmill": version("foldmill"),
         "numpy": np.__version__,
         "family": [task.design.slug, task.design.version, task.design.batch is not None],
+        "code": [code_hash(name) for name in ("foldmill", *modules(task.design))],
         "base": task.base.model_dump(mode="json"),
         "vary": [[axis.name, axis.values.tolist()] for axis in task.grid.axes],
         "chunk_rows": task.chunk_rows,
     }
     return sha256(json.dumps(stated).encode()).hexdigest()
+
+
+def modules(design: Design[Any]) -> tuple[str, ...]:
+    """Return the top packages or modules that hold a family's code.
+
+    What is made inside a function or a notebook is in none of them.
+    """
+    own = [each for each in (design.generate, design.params) if "<locals>" not in each.__qualname__]
+    tops = {each.__module__.partition(".")[0] for each in own} - {"__main__"}
+    return tuple(sorted(tops))
+
+
+def code_hash(module: str) -> str:
+    """Return the SHA-256 of a module's source, or of all Python files of a package; "" of none."""
+    found = sys.modules[module]
+    places = [Path(place) for place in getattr(found, "__path__", ())]
+    files = [(file, place) for place in places for file in sorted(place.rglob("*.py"))]
+    if not places and getattr(found, "__file__", None):
+        file = Path(str(found.__file__))
+        files = [(file, file.parent)]
+    digest = sha256()
+    for file, place in files:
+        digest.update(f"{file.relative_to(place).as_posix()}\n".encode() + file.read_bytes())
+    return digest.hexdigest() if files else ""
 
 
 class Store:

@@ -22,7 +22,7 @@ from foldmill_fabricate.explore.engine import Engine, Local
 from foldmill_fabricate.explore.grid import AT_MOST, Grid, grid
 from foldmill_fabricate.explore.ranges import Range
 from foldmill_fabricate.explore.regions import FULL_TURN, Region, closes, regions
-from foldmill_fabricate.explore.store import Store, compute_and_keep
+from foldmill_fabricate.explore.store import Store, compute_and_keep, modules
 
 P = TypeVar("P", bound=Params)
 Progress = Callable[[int, int], None]
@@ -149,13 +149,8 @@ def _computed(
 
 
 def packages(design: Design[Any]) -> tuple[str, ...]:
-    """Return the packages that a worker needs for a family, other than numpy.
-
-    What is made inside a function or a notebook travels whole and needs none.
-    """
-    own = [each for each in (design.generate, design.params) if "<locals>" not in each.__qualname__]
-    tops = {each.__module__.partition(".")[0] for each in own} - {"__main__"}
-    return ("foldmill", "foldmill_fabricate", *sorted(tops))
+    """Return the packages that a worker needs for a family, other than numpy."""
+    return ("foldmill", "foldmill_fabricate", *modules(design))
 
 
 def _broken_off(said: str, task: Task, done: Container[int], store: Store | None) -> str:

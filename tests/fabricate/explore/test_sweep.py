@@ -3,8 +3,10 @@ from __future__ import annotations
 import csv as csv_reader
 import gc
 import io
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
+from importlib.util import module_from_spec, spec_from_file_location
 from math import cos, pi
 from pathlib import Path
 from typing import Any
@@ -180,11 +182,11 @@ def test_a_batch_whose_answers_mean_nothing_ends_the_sweep_with_a_sentence(engin
         explore(broken, BOWL.preset("bowl-n8"), ranges("phi=60:100:2.5"), engine)
 
 
-def lethal(params: RotationalParams) -> Fold:
-    """End its process from outside, as an operating system without memory does."""
+def lethal(danger: Path, params: RotationalParams) -> Fold:
+    """End its process from outside, as an operating system does while memory is scarce."""
     import os
 
-    if params.phi == 80:
+    if params.phi == 80 and danger.exists():
         os.kill(os.getpid(), 9)
     return BOWL.generate(params)
 
@@ -192,12 +194,21 @@ def lethal(params: RotationalParams) -> Fold:
 def test_a_process_that_is_killed_ends_the_sweep_with_a_sentence_and_keeps_what_is_done(
     tmp_path: Path,
 ) -> None:
-    asked = ranges("phi=30:110:1")
-    deadly = replace(BOWL, generate=lethal)
-    base = BOWL.preset("bowl-n8")
+    asked, danger = ranges("phi=30:110:1"), tmp_path / "danger"
+    danger.touch()
+
+    def generate(params: RotationalParams) -> Fold:
+        return lethal(danger, params)
+
+    deadly, base, kept = replace(BOWL, generate=generate), BOWL.preset("bowl-n8"), tmp_path / "kept"
     with pytest.raises(EngineFailed, match="was ended from outside"):
-        explore(deadly, base, asked, Local(2), resume=tmp_path)
-    again = explore(BOWL, base, asked, SERIAL, resume=tmp_path)
+        explore(deadly, base, asked, Local(2), resume=kept)
+    danger.unlink()
+    done: list[int] = []
+    again = explore(
+        deadly, base, asked, SERIAL, resume=kept, progress=lambda now, rows: done.append(now)
+    )
+    assert done[0] >= 16
     assert csv(again) == csv(explore(BOWL, base, asked, SERIAL))
 
 
@@ -306,3 +317,27 @@ def test_another_sweep_has_another_key() -> None:
         Task(replace(BOWL, version="2"), base, grid(BOWL, base, ranges("phi=60:100:1"))),
     ]
     assert len({key(task) for task in tasks}) == 4
+
+
+def test_a_family_whose_code_has_changed_is_another_sweep(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = "from foldmill_plugins.rotational import DESIGN, generate as old\n\n\n"
+    code += "def generate(params):\n    return old(params)\n"
+    home = tmp_path / "homemade.py"
+    home.write_text(code)
+    spec = spec_from_file_location("homemade", home)
+    assert spec is not None
+    assert spec.loader is not None
+    made = module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, "homemade", made)
+    spec.loader.exec_module(made)
+    base = BOWL.preset("bowl-n8")
+    design = replace(BOWL, generate=made.generate)
+    task = Task(design, base, grid(design, base, ranges("phi=60:100:1")))
+    before = key(task)
+    assert key(task) == before
+    home.write_text(code.replace("old(params)", "old(params)  # and more"))
+    assert key(task) != before
+    home.write_text(code)
+    assert key(task) == before
