@@ -194,7 +194,7 @@ def lethal(danger: Path, params: RotationalParams) -> Fold:
 def test_a_process_that_is_killed_ends_the_sweep_with_a_sentence_and_keeps_what_is_done(
     tmp_path: Path,
 ) -> None:
-    asked, danger = ranges("phi=30:110:1"), tmp_path / "danger"
+    asked, danger = ranges("phi=48:80:1"), tmp_path / "danger"
     danger.touch()
 
     def generate(params: RotationalParams) -> Fold:
@@ -221,8 +221,8 @@ def stop(done: int, _: int) -> None:
 def test_what_was_done_when_a_sweep_is_broken_off_is_kept_and_it_is_said_where(
     tmp_path: Path, recwarn: pytest.WarningsRecorder
 ) -> None:
-    asked, base = ranges("phi=30:110:1"), BOWL.preset("bowl-n8")
-    said = rf"Broken off\. \d of 6 chunks were done; .* They are kept in {tmp_path}.*goes on there"
+    asked, base = ranges("phi=30:75:1"), BOWL.preset("bowl-n8")
+    said = rf"Broken off\. \d of 3 chunks were done; .* They are kept in {tmp_path}.*goes on there"
     with pytest.raises(KeyboardInterrupt, match=said):
         explore(BOWL, base, asked, Local(2), resume=tmp_path, progress=stop)
     gc.collect()
