@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
+from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -34,7 +35,7 @@ class TableSurface(Params):
         return TABLE[self.kind]
 
 
-AnySurface = TableSurface
+AnySurface = Annotated[TableSurface | ExpressionSurface, Field(discriminator="kind")]
 """Every kind of target, told apart by its ``kind``."""
 
 
