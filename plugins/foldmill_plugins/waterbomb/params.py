@@ -8,6 +8,8 @@ from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
 from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
+from foldmill_plugins.waterbomb.height_field import HeightField
+from foldmill_plugins.waterbomb.mesh_surface import MeshSurface
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -35,7 +37,9 @@ class TableSurface(Params):
         return TABLE[self.kind]
 
 
-AnySurface = Annotated[TableSurface | ExpressionSurface, Field(discriminator="kind")]
+AnySurface = Annotated[
+    TableSurface | ExpressionSurface | HeightField | MeshSurface, Field(discriminator="kind")
+]
 """Every kind of target, told apart by its ``kind``."""
 
 
