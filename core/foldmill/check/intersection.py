@@ -212,7 +212,7 @@ def _along_edges(mesh: _Mesh, edges: Indices) -> Iterator[Indices]:
         passes = mesh.over(left[row], face) * mesh.over(right[row], face) < 0
         row, face = _kept(passes, row, face)
         if len(row):
-            inside = _lengths_inside(mesh.vertices[edges[block[row]]], mesh.corners[face], mesh.eps)
+            inside = lengths_inside(mesh.vertices[edges[block[row]]], mesh.corners[face], mesh.eps)
             row, face = _kept(inside > mesh.eps, row, face)
         yield np.column_stack([np.repeat(face, 2), own[row].ravel()])
 
@@ -221,7 +221,7 @@ def _kept(flags: Flags, a: Indices, b: Indices) -> tuple[Indices, Indices]:
     return a[flags], b[flags]
 
 
-def _lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
+def lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
     """Return the lengths (n,) of segments (n, 2, 3), each in the plane of a triangle, inside it.
 
     triangles : (n, 3, 3) mm; eps : mm by which to keep away from their sides.

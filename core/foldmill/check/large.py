@@ -13,9 +13,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.check.intersection import cut_lengths
+from foldmill.check.intersection import cut_lengths, lengths_inside
 from foldmill.folded import face_normals
-from foldmill.planar import face_sides
+from foldmill.planar import edge_faces, face_sides
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -36,7 +36,7 @@ def penetrations(
     """
     corners = vertices[faces]
     normals = face_normals(vertices, faces)
-    beside = _beside(faces, len(vertices))
+    beside = _beside(faces)
     wanted = np.arange(len(faces)) if among is None else np.unique(among)
     is_wanted = np.isin(np.arange(len(faces)), wanted)
     found = [np.zeros((0, 2), np.intp)]
@@ -93,16 +93,11 @@ def _crossing(corners: Floats, faces: Indices, pairs: Indices, eps: float) -> In
     return hit
 
 
-def _beside(faces: Indices, count: int) -> Indices:
+def _beside(faces: Indices) -> Indices:
     """Return (F, 3) the face across each side, -1 where there is none."""
-    sides, owners = face_sides(faces)
-    keys = sides.min(axis=1) * count + sides.max(axis=1)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(keys[order[1:]] == keys[order[:-1]])
-    one, two = order[same], order[same + 1]
-    across = np.full(len(sides), -1)
-    across[one], across[two] = owners[two], owners[one]
-    return across.reshape(-1, 3).astype(np.intp)
+    sides, _ = face_sides(faces)
+    across: Indices = edge_faces(sides, faces)[:, 1].reshape(-1, 3)
+    return across
 
 
 def _along_edges(
@@ -129,27 +124,4 @@ def _along_edges(
     row, next_ = row[inside], next_[inside]
     ends = np.column_stack([other[row], own[row]]), np.column_stack([other[row], next_])
     found: Indices = np.vstack(ends).astype(np.intp)
-    return found
-
-
-def lengths_inside(segments: Floats, triangles: Floats, eps: float) -> Floats:
-    """Return the lengths (n,) of segments (n, 2, 3) inside triangles (n, 3, 3) of their planes.
-
-    eps : mm by which to keep away from their sides.
-    """
-    start, step = segments[:, 0], segments[:, 1] - segments[:, 0]
-    sides = triangles[:, [1, 2, 0]] - triangles
-    normals = np.cross(sides[:, 0], sides[:, 1])
-    inward = np.cross(normals[:, None], sides)
-    lengths = np.linalg.norm(inward, axis=2, keepdims=True)
-    inward = inward / np.where(lengths > 0, lengths, 1.0)
-    offset = ((start[:, None] - triangles) * inward).sum(axis=2) - eps
-    slope = (step[:, None] * inward).sum(axis=2)
-    level = np.abs(slope) <= eps
-    limit = -offset / np.where(level, 1.0, slope)
-    low = np.where(~level & (slope > 0), limit, 0.0).max(axis=1, initial=0.0)
-    high = np.where(~level & (slope < 0), limit, 1.0).min(axis=1, initial=1.0)
-    outside = (level & (offset <= 0)).any(axis=1)
-    share = np.where(outside, 0.0, np.maximum(0.0, high - low))
-    found: Floats = share * np.linalg.norm(step, axis=1)
     return found

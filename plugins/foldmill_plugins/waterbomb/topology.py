@@ -126,7 +126,7 @@ class Topology:
     @cached_property
     def stars(self) -> tuple[Indices, Indices]:
         """The interior vertices (m,), and the six neighbours (m, 6) of each, counter-clockwise."""
-        count, faces = len(self.is_centre), self.faces
+        faces = self.faces
         corner = faces.ravel()
         after, before = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, -2, axis=1).ravel()
         kept = self.is_interior[corner]
@@ -138,9 +138,7 @@ class Topology:
         for n in range(1, 6):
             here = starts == star[:, n - 1, None]
             star[:, n] = ends[np.arange(len(star)), here.argmax(axis=1)]
-        interior = np.flatnonzero(self.is_interior)
-        assert len(interior) == len(star) or count == 0
-        return interior, star
+        return np.flatnonzero(self.is_interior), star
 
     def opened(self) -> Topology:
         """Return the topology once it is cut: along k = 0, and along ring 0."""

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.planar import edge_faces, face_sides
 from foldmill_plugins.waterbomb.linear import Factorised
 from foldmill_plugins.waterbomb.topology import Topology
 
@@ -44,7 +45,7 @@ def laid_out(faces: Indices, points: Floats) -> Floats:
     Each facet is laid beside a whole facet, not upon two placed vertices: so what is left of angles
     adds up along the way and does not multiply.
     """
-    beside = neighbours(faces, len(points))
+    beside = edge_faces(face_sides(faces)[0], faces)[:, 1].reshape(-1, 3)
     shape = points[faces]
     laid = np.zeros((len(faces), 3, 2))
     front = np.array([len(faces) // 2])
@@ -62,18 +63,6 @@ def laid_out(faces: Indices, points: Floats) -> Floats:
     last = np.concatenate(order)[::-1]  # the first one laid has the last word
     flat[faces[last].ravel()] = laid[last].reshape(-1, 2)
     return flat
-
-
-def neighbours(faces: Indices, count: int) -> Indices:
-    """Return (F, 3) the face across each side of triangles (F, 3), -1 where there is none."""
-    sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    keys = sides.min(axis=1) * count + sides.max(axis=1)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(keys[order[1:]] == keys[order[:-1]])
-    across = np.full(len(sides), -1)
-    one, two = order[same], order[same + 1]
-    across[one], across[two] = two // 3, one // 3
-    return across.reshape(-1, 3).astype(np.intp)
 
 
 def _next(

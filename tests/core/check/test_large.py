@@ -69,7 +69,7 @@ def test_a_large_form_is_handed_to_the_tree(monkeypatch: pytest.MonkeyPatch) -> 
     points, faces = sheet(1)
     whole = intersection.penetrations(points, edges_of(faces), faces)
     monkeypatch.setattr(intersection, "MANY", 0)
-    monkeypatch.setattr(intersection, "_near_pairs", None)
+    monkeypatch.setattr(intersection, "_straddling", None)
     assert np.array_equal(intersection.penetrations(points, edges_of(faces), faces), whole)
 
 
