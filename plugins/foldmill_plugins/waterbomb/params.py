@@ -10,6 +10,7 @@ from foldmill import Count, Length, Params
 from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
 from foldmill_plugins.waterbomb.height_field import HeightField
 from foldmill_plugins.waterbomb.mesh_surface import MeshSurface
+from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -98,6 +99,8 @@ class WaterbombParams(Params):
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
     """What is as long as `size`: the larger side of the flat sheet, its width, its height, or one
     unit of the target."""
+    pieces: Pieces = Field(default_factory=Pieces)
+    """Into how many sheets the form is cut, and which of them this is."""
 
     @model_validator(mode="after")
     def _few_enough(self) -> WaterbombParams:
