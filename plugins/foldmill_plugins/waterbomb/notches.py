@@ -24,6 +24,8 @@ MOST = 5
 """Notches in one edge: more are not told apart at a glance."""
 DEPTH = 0.8
 """Depth of a notch, as a share of its width."""
+LEVEL = 1e-9
+"""mm². Twice the area below which three places are on one line."""
 ROOM = 0.5
 """Share of a facet's height that a notch may take."""
 
@@ -147,7 +149,7 @@ def _holds_any(flat: Floats, triangle: list[int], others: list[int]) -> bool:
     rest = flat[[each for each in others if each not in triangle]]
     a, b, c = flat[triangle]
     sides = [_doubled(p, q, rest) for p, q in ((a, b), (b, c), (c, a))]
-    return bool((np.min(sides, axis=0) >= 0).any())
+    return bool((np.min(sides, axis=0) >= -LEVEL).any())
 
 
 def _doubled(a: Floats, b: Floats, c: Floats) -> Floats:

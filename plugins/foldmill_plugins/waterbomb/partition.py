@@ -21,12 +21,16 @@ from foldmill_plugins.waterbomb.topology import Topology
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
+Side = tuple[int, int, int, int]
+"""A border edge: its face, its ends, the face's third corner."""
 
 
 @dataclass(frozen=True)
 class Seam:
     """A row of joints between two pieces, or between two borders of one."""
 
+    number: int
+    """From 1, another one for every seam of a piece; far seams may have the same."""
     host: int
     """Number of the piece that holds the tabs, from 0."""
     land: int
@@ -90,41 +94,45 @@ class Partition:
     def seams(self) -> tuple[Seam, ...]:
         """Every seam, sorted by its pieces."""
         rows: dict[tuple[int, int, bool], list[tuple[float, Joint]]] = defaultdict(list)
-        for one, two in self._pairs():
-            (f, a, b, c), (g, d, e, h) = one, two
+        for (f, a, b, c), (g, d, e, h) in self._pairs():
             partner = dict(zip(self.origin[self.of[[d, e]]].tolist(), (d, e), strict=True))
             ends = [partner[int(self.origin[self.of[x]])] for x in (a, b)]
+            is_own = set(self.of[[a, b]].tolist()) != set(self.of[[d, e]].tolist())
             joint = Joint((a, b, c), (ends[0], ends[1], h))
-            is_own = {int(x) for x in self.of[[a, b]]} != {int(x) for x in self.of[[d, e]]}
-            spots = self.of[[a, b]]
-            place = float(self.cut.k[spots].sum() + self.cut.j[spots].sum())
-            place += 0.5 * float(self.cut.is_centre[spots].sum())
-            rows[int(self.piece[f]), int(self.piece[g]), is_own].append((place, joint))
-        return tuple(
-            Seam(host, land, tuple(joint for _, joint in sorted(row, key=lambda each: each[0])))
-            for (host, land, _), row in sorted(rows.items())
-        )
+            rows[int(self.piece[f]), int(self.piece[g]), is_own].append((self._place(a, b), joint))
+        used: dict[int, set[int]] = defaultdict(set)
+        found = []
+        for (host, land, _), row in sorted(rows.items()):
+            taken = used[host] | used[land]
+            number = next(n for n in range(1, len(taken) + 2) if n not in taken)
+            used[host].add(number)
+            used[land].add(number)
+            joints = tuple(joint for _, joint in sorted(row, key=lambda each: each[0]))
+            found.append(Seam(number, host, land, joints))
+        return tuple(found)
 
-    def _pairs(self) -> list[tuple[tuple[int, int, int, int], tuple[int, int, int, int]]]:
+    def _place(self, a: int, b: int) -> float:
+        """Return how far along its seam a joint is; one of u and v is the same all along it."""
+        ends, cut = self.of[[a, b]], self.cut
+        return float((cut.k[ends] + cut.j[ends] + 0.5 * cut.is_centre[ends]).sum())
+
+    def _pairs(self) -> list[tuple[Side, Side]]:
         """Return the border edges that are one in space: (face, a, b, third corner), host first.
 
         The host has the lower number; of one piece, it is the side that comes later along u or v.
         """
-        sides: dict[tuple[int, int], list[tuple[int, int, int, int]]] = defaultdict(list)
+        sides: dict[tuple[int, int], list[Side]] = defaultdict(list)
         for face, a, b, c in border_sides(self.faces):
             x, y = self.origin[self.of[[a, b]]].tolist()
             sides[min(x, y), max(x, y)].append((face, a, b, c))
-        pairs = []
-        for row in sides.values():
-            if len(row) == 2:
-                later = sorted(
-                    row, key=lambda s: (self.piece[s[0]], -int(self.of[[s[1], s[2]]].sum()))
-                )
-                pairs.append((later[0], later[1]))
-        return pairs
+        pairs = [sorted(row, key=self._rank) for row in sides.values() if len(row) == 2]
+        return [(host, land) for host, land in pairs]
+
+    def _rank(self, side: Side) -> tuple[int, int]:
+        return int(self.piece[side[0]]), -int(self.of[[side[1], side[2]]].sum())
 
 
-def border_sides(faces: Indices) -> list[tuple[int, int, int, int]]:
+def border_sides(faces: Indices) -> list[Side]:
     """Return face, ends and third corner of every edge with one face."""
     corners = np.stack([faces, np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2)
     rows = np.column_stack([np.repeat(np.arange(len(faces)), 3), corners.reshape(-1, 3)])

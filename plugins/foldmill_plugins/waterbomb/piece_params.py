@@ -33,8 +33,8 @@ class Pieces(Params):
     taper: Angle = Field(default=45.0, ge=0, le=80)
     """By how much the ends of a glue tab lean inwards."""
     notch: Width = 2.0
-    """Width of the matching notches in both borders of a seam between pieces: as many as the
-    seam's number, from the seam's beginning on; 0 for none."""
+    """Width of the matching notches in both borders of a seam between pieces, 0 for none. There are
+    as many as the seam's number, from its beginning on; each seam of a piece has another number."""
 
     @model_validator(mode="after")
     def _whole_sheet(self) -> Pieces:

@@ -158,8 +158,8 @@ def _notches(part: Partition, wanted: Pieces) -> list[list[int]]:
     return [
         [0] * len(seam.joints)
         if none
-        else notches.spread(part.sheet, seam.joints, number, wanted.notch, taken)
-        for number, seam in enumerate(part.seams, start=1)
+        else notches.spread(part.sheet, seam.joints, seam.number, wanted.notch, taken)
+        for seam in part.seams
     ]
 
 
@@ -224,12 +224,12 @@ def facts(found: Made, number: int) -> dict[str, Any]:
     """Return for people which piece this is and which of its borders meets which piece."""
     seams = [
         {
-            "seam": k,
+            "seam": seam.number,
             "meets": (seam.land if seam.host == number - 1 else seam.host) + 1,
             "tabs": "here" if seam.host == number - 1 else "there",
             "edges": len(seam.joints),
         }
-        for k, seam in enumerate(found.part.seams, start=1)
+        for seam in found.part.seams
         if number - 1 in (seam.host, seam.land)
     ]
     return {
