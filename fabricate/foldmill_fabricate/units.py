@@ -15,6 +15,7 @@ from pydantic import BeforeValidator, Field
 _FACTORS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1.0, "cm": 10.0, "um": 1e-3, "in": 25.4},
     "deg": {"deg": 1.0},
+    "deg/s": {"deg/s": 1.0},
     "gf": {"gf": 1.0, "kgf": 1000.0, "N": 101.971621},
     "mm/s": {"mm/s": 1.0, "cm/s": 10.0},
     "mm/s2": {"mm/s2": 1.0, "m/s2": 1000.0},
@@ -45,6 +46,7 @@ def _unit(unit: str) -> tuple[BeforeValidator, Any]:
 
 Mm = Annotated[float, *_unit("mm")]
 Deg = Annotated[float, *_unit("deg")]
+DegPerSecond = Annotated[float, *_unit("deg/s")]
 GramForce = Annotated[float, *_unit("gf")]
 MmPerSecond = Annotated[float, *_unit("mm/s")]
 MmPerSecond2 = Annotated[float, *_unit("mm/s2")]

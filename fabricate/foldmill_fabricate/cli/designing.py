@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from foldmill import Design, Fold, FoldmillError
-from foldmill.finding import Finding, Severity, has_errors
+from foldmill.exchange.marking import marked
+from foldmill.finding import has_errors
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -99,16 +98,6 @@ def report(
     offered = installed().design(family)
     figures = offered.report(name, gather(offered, preset, params, context.args))
     say(as_json, dict(figures), report_text(figures))
-
-
-def marked(fold: Fold, found: Sequence[Finding]) -> Fold:
-    """Put the codes of its errors into the fold, so that the file says what it is."""
-    codes = sorted({finding.code for finding in found if finding.severity is Severity.ERROR})
-    if not codes:
-        return fold
-    kept = dict(fold.meta.get("fold", {}))
-    kept["frame"] = {**kept.get("frame", {}), "foldmill:errors": codes}
-    return replace(fold, meta={**fold.meta, "fold": kept})
 
 
 def show(

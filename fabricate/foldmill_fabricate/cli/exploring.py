@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from foldmill.exchange.marking import marked
 from foldmill.finding import has_errors
-from foldmill_fabricate.cli.designing import marked, save
+from foldmill_fabricate.cli.designing import save
 from foldmill_fabricate.cli.output import AsJson, finding_lines, say, table
 from foldmill_fabricate.cli.progress import SweepProgress
 from foldmill_fabricate.errors import CannotExplore

@@ -7,7 +7,16 @@ from typing import Literal
 from pydantic import Field
 
 from foldmill_fabricate.presets import Preset
-from foldmill_fabricate.units import GramForce, Mm, MmPerSecond, MmPerSecond2, Seconds, StepsPerMm
+from foldmill_fabricate.units import (
+    Deg,
+    DegPerSecond,
+    GramForce,
+    Mm,
+    MmPerSecond,
+    MmPerSecond2,
+    Seconds,
+    StepsPerMm,
+)
 
 
 class Bed(Preset):
@@ -42,6 +51,8 @@ class Tools(Preset):
     cut: int = Field(ge=0)
     """Number after SP; 0 where SP means nothing."""
     max_force: GramForce = Field(gt=0)
+    trails: bool = True
+    """Whether the tool follows the way and must be turned: a knife or wheel; not a pen or laser."""
     firmware_offset: bool = True
     """Whether the machine itself makes up for the blade's offset."""
     blade_offset: Mm = Field(0.25, ge=0)
@@ -69,6 +80,12 @@ class Motion(Preset):
     acceleration: MmPerSecond2 = Field(gt=0)
     lift_time: Seconds = Field(ge=0)
     tool_time: Seconds = Field(ge=0)
+    swivel_speed: DegPerSecond = Field(360.0, gt=0)
+    """How fast a trailing tool is turned in the material."""
+    swivel_time: Seconds = Field(0.05, ge=0)
+    """What stopping and starting again for such a turn takes besides."""
+    swivel_from: Deg = Field(20.0, ge=0)
+    """Bends up to this are followed without stopping."""
 
 
 class Serial(Preset):

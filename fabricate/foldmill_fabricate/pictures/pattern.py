@@ -41,6 +41,7 @@ def pattern_picture(fold: Fold) -> bytes:
         figure = canvas.figure(190, 200)
         draw(canvas.flat_axes(figure, (0.02, 0.05, 0.96, 0.88)), fold.pattern)
         figure.suptitle(str(fold.meta.get("title", "Crease pattern")), fontsize=12)
+        canvas.warn(figure, fold)
         return canvas.png(figure)
 
 

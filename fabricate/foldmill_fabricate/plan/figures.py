@@ -9,6 +9,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face, Figures, Flip, Pass, SetUp, Sheet
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import motion, order
+from foldmill_fabricate.toolpath.bounds import travel_bound
 from foldmill_fabricate.toolpath.traversal import traversal
 
 Floats = NDArray[np.float64]
@@ -25,7 +26,7 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
             strokes += len(paths)
             drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
             travel += order.travel(paths, at)
-            bound += order.travel_bound(_lines(one_pass.face, setup, sheet, flip), at)
+            bound += _bound(one_pass.face, setup, at, sheet, flip)
             seconds += _seconds(paths, at, setup, machine)
             at = paths[-1][-1] if paths else at
     return Figures(
@@ -38,10 +39,12 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
     )
 
 
-def _lines(face: Face, setup: SetUp, sheet: Sheet, flip: Flip) -> list[Floats]:
-    """Return the strokes as the machine sees them, each once along."""
-    strokes = [stroke for operation in setup.operations for stroke in operation.strokes]
-    return [_seen(np.array(stroke.points), face, sheet, flip) for stroke in strokes]
+def _bound(face: Face, setup: SetUp, at: Floats, sheet: Sheet, flip: Flip) -> float:
+    """Return the travel, mm, that no order of the set-up's strokes goes below."""
+    strokes = [(s, operation) for operation in setup.operations for s in operation.strokes]
+    lines = [_seen(np.array(stroke.points), face, sheet, flip) for stroke, _ in strokes]
+    returns = [operation.repeats % 2 == 0 and not stroke.closed for stroke, operation in strokes]
+    return travel_bound(lines, at, returns)
 
 
 def _paths(face: Face, setup: SetUp, sheet: Sheet, flip: Flip) -> list[Floats]:

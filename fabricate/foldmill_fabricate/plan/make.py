@@ -59,7 +59,7 @@ def make(
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
     marks = _register(pattern, spots, sheet, turn, material, by_face)
-    lines, ties = _lines(pattern, spots, by_face, material)
+    lines, ties = _lines(pattern, spots, by_face, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
@@ -80,18 +80,18 @@ def make(
 
 
 def _lines(
-    pattern: CreasePattern, spots: Floats, by_face: ByFace, material: Material
+    pattern: CreasePattern, spots: Floats, by_face: ByFace, material: Material, machine: Machine
 ) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...]]:
     """Return what gives the strokes of a face from where the tool is, and the outline's ties."""
     cuts, ties = outline.outer_cut(pattern, spots, material.cut)
     stops = scores.held_back(pattern, by_face)
-    score = material.score
-    rules.refuse_short_creases(pattern, by_face, stops, score.setback)
+    score, back = material.score, material.score.setback
+    rules.refuse_short_creases(pattern, by_face, stops, back)
 
     def lines(face: Face, start: Floats) -> Lines:
         edges = by_face[face]
         return Lines(
-            scores.strokes(pattern, spots, edges, stops, score.setback, score.repeats, start),
+            scores.strokes(pattern, spots, edges, stops, back, score.repeats, start, machine),
             outline.inner_cuts(pattern, spots, material.cut.repeats, start),
             cuts,
         )

@@ -8,8 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Assignment, CreasePattern
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face, Stroke
-from foldmill_fabricate.toolpath import order, trails
+from foldmill_fabricate.toolpath import order
+from foldmill_fabricate.toolpath.corners import by_time, free_turning
+from foldmill_fabricate.toolpath.routing import route
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -59,38 +62,42 @@ def strokes(
     setback: float,
     repeats: int,
     start: Floats,
+    machine: Machine,
 ) -> tuple[Stroke, ...]:
     """Return the score strokes of one face in order of work.
 
     spots : (V, 2) the vertices on the sheet, mm; edges : those scored on this face;
     stops : vertices that scores stop short of, by ``setback`` mm; start : (2,) where the tool is.
-    Creases are joined to trails as straight as they go, then divided where scores stop short. The
-    pieces are ordered, not the trails: an even number of repeats ends a stroke where it began, so
-    that the next piece of its trail is no nearer than others.
+    Creases are joined to trails, then divided where scores stop short. The pieces are ordered, not
+    the trails: an even number of repeats ends a stroke where it began, so that the next piece of
+    its trail is no nearer than others; and where it ends at the other end, ordering the pieces
+    finds the hops of the trail among all others.
     """
-    pieces = [
-        piece
-        for trail in trails.straightest(spots, pattern.edges[edges])
-        for piece in _divide(trail, spots, stops, setback)
-    ]
+    corners = by_time(machine.motion) if machine.tools.trails else free_turning()
+    found = route(spots, pattern.edges[edges], start, corners)
+    held = stops if setback > 0 else set()
+    pieces = [piece for trail in found.trails for piece in _divide(trail, spots, held, setback)]
+    if len(pieces) == len(found.trails) and repeats % 2:
+        return tuple(pieces)
     return order.sorted_strokes(pieces, repeats, start)
 
 
-def _divide(trail: list[int], spots: Floats, stops: set[int], setback: float) -> list[Stroke]:
-    """Cut a trail into straight strokes, held back where they must stop short."""
-    cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops or _bends(trail, k, spots)]
+def _divide(trail: tuple[int, ...], spots: Floats, stops: set[int], setback: float) -> list[Stroke]:
+    """Cut a trail into strokes where they must stop short of a vertex."""
+    cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops]
     pieces = []
     for low, high in pairwise([0, *cuts, len(trail) - 1]):
-        a, b = spots[trail[low]], spots[trail[high]]
-        one = _shortened(a, b, setback) if trail[low] in stops else a
-        two = _shortened(b, a, setback) if trail[high] in stops else b
-        ends = ((float(one[0]), float(one[1])), (float(two[0]), float(two[1])))
-        pieces.append(Stroke(points=ends))
+        way = spots[list(trail[low : high + 1])]
+        bent = [k for k in range(1, len(way) - 1) if _bends(way, k)]
+        one = _shortened(way[0], way[1], setback) if trail[low] in stops else way[0]
+        two = _shortened(way[-1], way[-2], setback) if trail[high] in stops else way[-1]
+        points = (one, *way[bent], two)
+        pieces.append(Stroke(points=tuple((float(x), float(y)) for x, y in points)))
     return pieces
 
 
-def _bends(trail: list[int], k: int, spots: Floats) -> bool:
-    one, two = spots[trail[k]] - spots[trail[k - 1]], spots[trail[k + 1]] - spots[trail[k]]
+def _bends(way: Floats, k: int) -> bool:
+    one, two = way[k] - way[k - 1], way[k + 1] - way[k]
     bend = np.degrees(np.arctan2(one[0] * two[1] - one[1] * two[0], one @ two))
     return bool(abs(bend) > STRAIGHT_DEG)
 

@@ -17,10 +17,12 @@ from foldmill import Design, Fold
 from foldmill_fabricate.errors import CannotExplore, EngineFailed
 from foldmill_fabricate.explore import Cluster, Local, Range, Sweep, csv, explore
 from foldmill_fabricate.explore.cluster import compare, fingerprint
-from foldmill_plugins.rotational import DESIGN as BOWL
+from foldmill_plugins import rotational
 from foldmill_plugins.rotational import RotationalParams
 from foldmill_plugins.six_crease import DESIGN as TUBE
 
+BOWL = replace(rotational.DESIGN, batch=None)
+"""A family whose rows are generated and checked one by one."""
 PHI = [Range.read("phi=60:100:0.8")]
 
 

@@ -18,10 +18,12 @@ from foldmill_fabricate.explore import Local, Range, csv, explore, summary
 from foldmill_fabricate.explore.chunk import FAULT, Task, compute
 from foldmill_fabricate.explore.grid import grid
 from foldmill_fabricate.explore.store import Store, key
-from foldmill_plugins.rotational import DESIGN as BOWL
+from foldmill_plugins import rotational
 from foldmill_plugins.rotational import RotationalParams
 from foldmill_plugins.six_crease import DESIGN as TUBE
 
+BOWL = replace(rotational.DESIGN, batch=None)
+"""A family whose rows are generated and checked one by one."""
 SERIAL = Local(1)
 RUGBY = TUBE.preset("rugby")
 

@@ -6,11 +6,12 @@ from itertools import pairwise, permutations, product
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from foldmill_fabricate.passes import Operation, Role, Stroke
-from foldmill_fabricate.toolpath import motion, order, trails
+from foldmill_fabricate.toolpath import motion, sequence, trails
+from foldmill_fabricate.toolpath.bounds import travel_bound
 from foldmill_fabricate.toolpath.traversal import traversal
 
 
@@ -18,6 +19,7 @@ def op(repeats: int, overcut: float = 0.0) -> Operation:
     return Operation(role=Role.SCORE, repeats=repeats, overcut=overcut, strokes=())
 
 
+@settings(deadline=None)  # the first call loads and compiles
 @given(st.integers(0, 10_000), st.integers(2, 25))
 def test_trails_go_over_every_edge_exactly_once(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
@@ -41,10 +43,10 @@ def test_a_trail_goes_straight_on_at_a_crossing() -> None:
 
 def shortest(ends: np.ndarray, start: np.ndarray, returns: bool) -> float:
     best = np.inf
-    for sequence in permutations(range(len(ends))):
+    for way in permutations(range(len(ends))):
         for sides in product((0, 1), repeat=len(ends)):
             at, total = start, 0.0
-            for k, side in zip(sequence, sides, strict=True):
+            for k, side in zip(way, sides, strict=True):
                 total += float(np.hypot(*(ends[k, side] - at)))
                 at = ends[k, side if returns else 1 - side]
             best = min(best, total)
@@ -52,21 +54,19 @@ def shortest(ends: np.ndarray, start: np.ndarray, returns: bool) -> float:
 
 
 @pytest.mark.parametrize("returns", [False, True])
-def test_the_order_is_near_the_best_and_never_below_the_bound(returns: bool) -> None:
+def test_few_strokes_are_ordered_as_well_as_can_be_and_never_below_the_bound(returns: bool) -> None:
     rng = np.random.default_rng(7)
-    ratios = []
     for _ in range(12):
         ends, start = rng.random((5, 2, 2)), np.zeros(2)
-        found = order.order(ends, start, returns=returns)
+        found = sequence.order(ends, start, returns=returns)
         assert sorted(k for k, _ in found) == list(range(5))
         at, total = start, 0.0
         for k, backwards in found:
             total += float(np.hypot(*(ends[k, int(backwards)] - at)))
             at = ends[k, int(backwards) if returns else 1 - int(backwards)]
         best = shortest(ends, start, returns)
-        assert order.travel_bound(list(ends), start) <= best + 1e-9
-        ratios.append(total / best)
-    assert np.mean(ratios) < 1.1
+        assert travel_bound(list(ends), start, returns) <= best + 1e-9
+        assert total == pytest.approx(best)
 
 
 def test_a_knife_goes_there_and_back_without_lifting() -> None:
