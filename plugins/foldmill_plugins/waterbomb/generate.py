@@ -35,7 +35,7 @@ def generate(params: WaterbombParams) -> Fold:
     build = Build(params)
     require_converged(build)
     cut = build.topology.opened()
-    solid = _from_zero(build, build.developed.points[build.topology.origin])
+    solid = from_zero(build, build.developed.points[build.topology.origin])
     flat = unfold(cut, solid)
     _require_isometric(cut, solid, flat)
     scale = _scale(params, flat)
@@ -87,6 +87,12 @@ def _require_isometric(cut: Topology, solid: Floats, flat: Floats) -> None:
     )
 
 
+def mm_per_unit(build: Build) -> float:
+    """Return by how much the target is enlarged, so that its sheet is as large as asked for."""
+    solid = build.developed.points[build.topology.origin]
+    return _scale(build.params, unfold(build.topology.opened(), solid))
+
+
 def _scale(params: WaterbombParams, flat: Floats) -> float:
     """Return mm per unit of the target."""
     width, height = np.ptp(flat, axis=0)
@@ -112,7 +118,7 @@ def seams(topology: Topology) -> Indices:
     return pieces.twins(topology.origin)
 
 
-def _from_zero(build: Build, solid: Floats) -> Floats:
+def from_zero(build: Build, solid: Floats) -> Floats:
     """Turn a form round a surface of revolution so that its seam is at azimuth 0."""
     if not build.surface.is_revolution:
         return solid
