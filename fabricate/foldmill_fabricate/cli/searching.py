@@ -75,7 +75,7 @@ def search(
     from foldmill_fabricate.explore.search import Request, contents, report
     from foldmill_fabricate.explore.search import search as look
     from foldmill_fabricate.explore.search.request import EVALUATIONS
-    from foldmill_fabricate.files import write_all
+    from foldmill_fabricate.files import require_place, write_all
 
     offered = installed().design(family)
     if jobs == 0 or jobs < -1:
@@ -95,6 +95,8 @@ def search(
         results=results,
         evaluations=EVALUATIONS if evaluations is None else evaluations,
     )
+    if output is not None:
+        require_place(output / "results.csv")
     with telling() as tell:
         outcome = look(offered, request, jobs=jobs, seconds=seconds, tell=tell)
     if output is not None and outcome.results:
