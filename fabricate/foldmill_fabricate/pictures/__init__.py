@@ -12,6 +12,7 @@ from foldmill_fabricate.pictures.pattern import pattern_picture
 from foldmill_fabricate.pictures.pattern_svg import pattern_svg
 from foldmill_fabricate.pictures.sheet import sheet_picture
 from foldmill_fabricate.pictures.show import show_picture
+from foldmill_fabricate.pictures.stages import stages_picture
 
 __all__ = [
     "angles_picture",
@@ -22,4 +23,5 @@ __all__ = [
     "pattern_svg",
     "sheet_picture",
     "show_picture",
+    "stages_picture",
 ]

@@ -7,6 +7,7 @@ from foldmill_plugins.waterbomb import closeness, convergence, feasibility
 from foldmill_plugins.waterbomb.generate import generate
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.presets import PRESETS
+from foldmill_plugins.waterbomb.stages import stages
 
 DESIGN = Design(
     slug="waterbomb",
@@ -19,6 +20,7 @@ DESIGN = Design(
         "convergence": convergence.report,
         "closeness": closeness.report,
     },
+    stages=stages,
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 6",),
 )
 

@@ -7,6 +7,10 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
+from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
+from foldmill_plugins.waterbomb.height_field import HeightField
+from foldmill_plugins.waterbomb.mesh_surface import MeshSurface
+from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -34,7 +38,9 @@ class TableSurface(Params):
         return TABLE[self.kind]
 
 
-AnySurface = TableSurface
+AnySurface = Annotated[
+    TableSurface | ExpressionSurface | HeightField | MeshSurface, Field(discriminator="kind")
+]
 """Every kind of target, told apart by its ``kind``."""
 
 
@@ -93,6 +99,8 @@ class WaterbombParams(Params):
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
     """What is as long as `size`: the larger side of the flat sheet, its width, its height, or one
     unit of the target."""
+    pieces: Pieces = Field(default_factory=Pieces)
+    """Into how many sheets the form is cut, and which of them this is."""
 
     @model_validator(mode="after")
     def _few_enough(self) -> WaterbombParams:
