@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from foldmill import Design, hookimpl
-from foldmill_plugins.waterbomb import closeness, convergence, feasibility
+from foldmill_plugins.waterbomb import closeness, convergence, feasibility, nearer
 from foldmill_plugins.waterbomb.generate import generate
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.presets import PRESETS
@@ -18,6 +18,7 @@ DESIGN = Design(
         "feasibility": feasibility.report,
         "convergence": convergence.report,
         "closeness": closeness.report,
+        "fit": nearer.report,
     },
     references=("Y. Zhao, Design Methods for Triangle-based 3D Origami, chapter 6",),
 )

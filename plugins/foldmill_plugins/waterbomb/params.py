@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
+from foldmill_plugins.waterbomb.options import FitOptions
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -88,6 +89,8 @@ class WaterbombParams(Params):
     """Whether the vertices of the boundary move in the search."""
     rim: Literal["inside", "outside"] = "inside"
     """Whether the first and the last ring slide within the range of v only, or beyond it too."""
+    fit: FitOptions = Field(default_factory=FitOptions)
+    """How the form is brought closer to the target once it is developable."""
     size: Length = Field(default=400.0, ge=10, le=10_000)
     """Size of what `sized` says."""
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
