@@ -13,12 +13,13 @@ from foldmill_plugins.waterbomb.contact import Clashes
 from foldmill_plugins.waterbomb.curvature import flat_metric
 from foldmill_plugins.waterbomb.fit import Fitted, fitted
 from foldmill_plugins.waterbomb.jacobian import Stars
+from foldmill_plugins.waterbomb.kawasaki import FlatFoldable
 from foldmill_plugins.waterbomb.metric import Start, closed_form
 from foldmill_plugins.waterbomb.nested import halved, transferred
 from foldmill_plugins.waterbomb.objective import Objective
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.sector import Sector
-from foldmill_plugins.waterbomb.solve import Developed, develop
+from foldmill_plugins.waterbomb.solve import Conditions, Developed, develop
 from foldmill_plugins.waterbomb.surfaces import Surface
 from foldmill_plugins.waterbomb.topology import Topology
 from foldmill_plugins.waterbomb.unknowns import Unknowns
@@ -144,7 +145,7 @@ class Build:
         stars = Stars.of(self.topology, is_boundary_free=is_free)
         if self.is_symmetric:
             return Unknowns.by_orbit(Sector.of(self.topology, stars, self.base))
-        return Unknowns.of(stars, stars.is_free)
+        return Unknowns.of(self.conditions_on(stars), stars.is_free)
 
     @cached_property
     def plain(self) -> Developed:
@@ -154,7 +155,13 @@ class Build:
                 return self._by_sector()
             if self.start == "uniform":
                 return develop(self.stars, self._begun_by_a_coarser(), E_TOTAL, MOST_ITERATIONS)
-        return develop(self.stars, self.base, E_TOTAL, MOST_ITERATIONS)
+        sums = len(self.stars.centre)
+        return develop(self.conditions_on(self.stars), self.base, E_TOTAL, MOST_ITERATIONS, sums)
+
+    def conditions_on(self, stars: Stars) -> Conditions:
+        """Return what the search must keep: developability, and flat-foldability if wanted."""
+        wants_more = self.params.flat_foldable and not self.is_symmetric
+        return FlatFoldable(stars) if wants_more else stars
 
     def _by_sector(self) -> Developed:
         sector = Sector.of(self.topology, self.stars, self.base)

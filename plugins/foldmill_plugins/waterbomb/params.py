@@ -89,6 +89,9 @@ class WaterbombParams(Params):
     """Whether the vertices of the boundary move in the search."""
     rim: Literal["inside", "outside"] = "inside"
     """Whether the first and the last ring slide within the range of v only, or beyond it too."""
+    flat_foldable: bool = False
+    """Whether every vertex must be able to fold flat by itself: every other angle adds up to 180°.
+    Tessellations round an axis are so anyhow."""
     fit: FitOptions = Field(default_factory=FitOptions)
     """How the form is brought closer to the target once it is developable."""
     size: Length = Field(default=400.0, ge=10, le=10_000)
