@@ -1,4 +1,4 @@
-"""What a user states of a fit: bounds, and how much each of them matters."""
+"""What a user states of a fit, and of how many bases there should be."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from foldmill import Angle, Count, Params
+from foldmill import Angle, Count, Length, Params
 
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 """A share of something, from 0 to 1."""
@@ -38,5 +38,30 @@ class FitOptions(Params):
             raise ValueError(
                 f"folds need room of 30° at least between lowest and highest, not "
                 f"{self.highest - self.lowest:g}°: the creases of a base fold differently"
+            )
+        return self
+
+
+class Wanted(Params):
+    """What the number of bases is to be chosen for, by the report on density."""
+
+    distance: Annotated[float | None, Field(gt=0, le=1, allow_inf_nan=False)] = None
+    """Mean distance of the vertices from the target, as a share of its diagonal: the fewest bases
+    that come as close are looked for."""
+    sheet_width: Length | None = None
+    """Width of the sheet that the flat pattern must fit on, either way round."""
+    sheet_height: Length | None = None
+    """Height of that sheet; left out: as its width."""
+    smallest: Length | None = None
+    """Least altitude of a facet on that sheet: the most bases that keep it are looked for."""
+    most_bases: Annotated[Count, Field(le=20_000)] = 2_000
+    """Bases beyond which nothing is looked for."""
+
+    @model_validator(mode="after")
+    def _is_whole(self) -> Wanted:
+        if (self.smallest is None) != (self.sheet_width is None):
+            raise ValueError(
+                "smallest and sheet_width belong together: how small a facet becomes depends on "
+                "the sheet"
             )
         return self

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
-from foldmill_plugins.waterbomb.options import FitOptions
+from foldmill_plugins.waterbomb.options import FitOptions, Wanted
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -94,6 +94,8 @@ class WaterbombParams(Params):
     Tessellations round an axis are so anyhow."""
     fit: FitOptions = Field(default_factory=FitOptions)
     """How the form is brought closer to the target once it is developable."""
+    wanted: Wanted = Field(default_factory=Wanted)
+    """What the report on density chooses n_u and n_v for; the form itself does not depend on it."""
     size: Length = Field(default=400.0, ge=10, le=10_000)
     """Size of what `sized` says."""
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
