@@ -143,7 +143,7 @@ def fit_table() -> str:
     """Return the Markdown table of Table 6.3 with the fit on."""
     columns = (
         *(" ", "surface", "thesis d", "defaults d", "fit d", "d / thesis", "goal", "on facets"),
-        *("reverse", "folds °", "edge ratio", "steps", "e_total °", "fit s", "status"),
+        *("reverse", "folds °", "edge ratio", "steps", "e_total °", "fit CPU s", "status"),
     )
     lines = [f"| {' | '.join(columns)} |", "|" + "---|" * len(columns)]
     for row, goal in zip(FITTED, GOALS, strict=True):
@@ -151,9 +151,9 @@ def fit_table() -> str:
         own = Build(preset.model_copy(update=PLAIN))
         build = Build(with_fit(preset))
         build.plain  # noqa: B018 - made before the clock runs
-        start = time.perf_counter()
+        start = time.process_time()
         build.fit  # noqa: B018 - what is timed
-        seconds = time.perf_counter() - start
+        seconds = time.process_time() - start
         before, after = measures(build, build.plain.points), measures(build, build.developed.points)
         thesis_way = measures(own, own.developed.points)["reverse_mean"]
         folds = np.degrees(Creases.of(build.topology, build.side).folds(build.developed.points))
@@ -296,7 +296,7 @@ drift along the target. *on facets*: the mean distance of places on the facets, 
 the preset and of the thesis' own problem; 1.4 is the most that was asked for. *folds*: least and
 greatest, all in the direction that a waterbomb asks for. *edge ratio*: longest over shortest edge.
 *goal*: the d / thesis to be reached. `foldmill report waterbomb fit` tells all of this for any
-parameters.
+parameters. *fit CPU s*: processor seconds of the fit alone, once.
 
 """
 FOLDABLE = """
