@@ -15,6 +15,7 @@ from foldmill_plugins.waterbomb import feasibility, pieces, simple, status
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.convergence import steps
 from foldmill_plugins.waterbomb.distance import Target
+from foldmill_plugins.waterbomb.fit import went
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.status import Status
 from foldmill_plugins.waterbomb.topology import Indices, Topology
@@ -152,6 +153,7 @@ def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
         "start": build.start,
         "feasibility": feasibility.promised(build),
         "convergence": steps(found),
+        **({} if build.fit is None else {"fit": went(build.fit)}),
         "distance": {"mean": float(away.mean()), "largest": float(away.max())},
         "mm_per_unit": scale,
     }

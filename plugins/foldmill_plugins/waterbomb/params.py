@@ -10,6 +10,7 @@ from foldmill import Count, Length, Params
 from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
 from foldmill_plugins.waterbomb.height_field import HeightField
 from foldmill_plugins.waterbomb.mesh_surface import MeshSurface
+from foldmill_plugins.waterbomb.options import FitOptions, Wanted
 from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
@@ -94,6 +95,13 @@ class WaterbombParams(Params):
     """Whether the vertices of the boundary move in the search."""
     rim: Literal["inside", "outside"] = "inside"
     """Whether the first and the last ring slide within the range of v only, or beyond it too."""
+    flat_foldable: bool = False
+    """Whether every vertex must be able to fold flat by itself: every other angle adds up to 180°.
+    Tessellations round an axis are so anyhow."""
+    fit: FitOptions = Field(default_factory=FitOptions)
+    """How the form is brought closer to the target once it is developable."""
+    wanted: Wanted = Field(default_factory=Wanted)
+    """What the report on density chooses n_u and n_v for; the form itself does not depend on it."""
     size: Length = Field(default=400.0, ge=10, le=10_000)
     """Size of what `sized` says."""
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
