@@ -134,7 +134,7 @@ def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
             "same sheet and bend it before you trust them."
         )
     cut, strongest = plan.material.cut, plan.machine.tools.max_force
-    if strongest < cut.force_needed:
+    if strongest is not None and strongest < cut.force_needed:
         said.append(
             f"This machine presses with {strongest:g} gf at most; cutting "
             f"{plan.material.thickness:g} mm through takes about {cut.force_needed:g} gf, so it "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +11,7 @@ from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.plan import spacing
-from foldmill_fabricate.plan.scores import held_back
+from foldmill_fabricate.plan import relief, spacing
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -22,16 +21,16 @@ SHORT_CREASE = 2.0
 
 
 def refuse_short_creases(
-    pattern: CreasePattern, by_face: dict[Face, Indices], stops: set[int], setback: float
+    pattern: CreasePattern, by_face: Mapping[Face, Indices], stops: Mapping[int, float]
 ) -> None:
-    """Raise CannotPlan for a crease that its setbacks would swallow."""
+    """Raise CannotPlan for a crease that its setbacks would swallow; stops : mm by vertex."""
     for edge in np.concatenate(list(by_face.values())).tolist():
-        taken = setback * sum(int(v) in stops for v in pattern.edges[edge])
-        if pattern.edge_lengths[edge] <= taken:
+        taken = [stops.get(int(v), 0.0) for v in pattern.edges[edge]]
+        if pattern.edge_lengths[edge] <= sum(taken):
             raise CannotPlan(
                 f"Crease {edge} is {pattern.edge_lengths[edge]:.2f} mm long, and scores stop "
-                f"{setback:g} mm short of the vertices at its ends: nothing is left to score. "
-                f"Enlarge the design or merge its vertices."
+                f"{taken[0]:g} and {taken[1]:g} mm short of the vertices at its ends: nothing is "
+                f"left to score. Enlarge the design or merge its vertices."
             )
 
 
@@ -39,16 +38,23 @@ def judge(
     pattern: CreasePattern,
     spots: Floats,
     by_face: dict[Face, Indices],
+    stops: Mapping[int, float],
+    relieved: Collection[int],
     plan: Plan,
 ) -> tuple[Finding, ...]:
-    """Return the findings of a plan; spots : (V, 2) the vertices on the sheet, mm."""
-    stops = held_back(pattern, by_face)
+    """Return the findings of a plan.
+
+    spots : (V, 2) the vertices on the sheet, mm; stops : vertices that scores stop short of, and by
+    how many mm; relieved : those with a relief hole.
+    """
     return (
         *_material(plan),
+        *_language(plan),
         *_force(plan),
         *_depth(plan),
         *_short_creases(pattern, spots, by_face, stops, plan),
-        *spacing.findings(pattern, spots, by_face, stops, plan.material),
+        *spacing.findings(pattern, spots, by_face, stops, plan.material, relieved),
+        *relief.findings(plan.reliefs, pattern, spots),
     )
 
 
@@ -71,8 +77,29 @@ def _material(plan: Plan) -> Iterator[Finding]:
         )
 
 
+def _language(plan: Plan) -> Iterator[Finding]:
+    if plan.machine.language != "hpgl":
+        yield Finding(
+            "no-programs",
+            Severity.WARNING,
+            plan.machine.slug,
+            f"This machine speaks {plan.machine.language}, and programs in that language cannot be "
+            f"written yet.",
+            "Open the drawings in the machine's own software, one face after the other.",
+        )
+
+
 def _force(plan: Plan) -> Iterator[Finding]:
     cut, tools = plan.material.cut, plan.machine.tools
+    if tools.max_force is None:
+        yield Finding(
+            "power-by-trial",
+            Severity.INFO,
+            plan.machine.slug,
+            "This machine sets no force, and no table of its power and speed is known.",
+            "Find both on waste: lines that are to go through must fall out by themselves.",
+        )
+        return
     if tools.max_force < cut.force_needed:
         yield Finding(
             "through-cut-marginal",
@@ -85,11 +112,11 @@ def _force(plan: Plan) -> Iterator[Finding]:
     if tools.max_force < plan.material.score.force:
         yield Finding(
             "score-force",
-            Severity.ERROR,
+            Severity.WARNING,
             plan.machine.slug,
-            f"Scoring needs {plan.material.score.force:g} gf, and this machine has "
-            f"{tools.max_force:g} gf.",
-            "Take another machine, or a material that scores with less force.",
+            f"Scoring is set to {tools.max_force:g} gf, all this machine has; "
+            f"{plan.material.score.force:g} gf are usual.",
+            "Try one more repeat on waste.",
         )
 
 
@@ -110,14 +137,14 @@ def _short_creases(
     pattern: CreasePattern,
     spots: Floats,
     by_face: dict[Face, Indices],
-    stops: set[int],
+    stops: Mapping[int, float],
     plan: Plan,
 ) -> Iterator[Finding]:
-    score, least = plan.material.score, plan.material.min_feature
+    least = plan.material.min_feature
     for face, edges in by_face.items():
         for edge in edges.tolist():
             length = float(pattern.edge_lengths[edge])
-            taken = score.setback * sum(int(v) in stops for v in pattern.edges[edge])
+            taken = sum(stops.get(int(v), 0.0) for v in pattern.edges[edge])
             x, y = spots[pattern.edges[edge]].mean(axis=0)
             if length < max(taken + SHORT_CREASE, least):
                 yield Finding(
