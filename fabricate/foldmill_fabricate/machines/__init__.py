@@ -55,11 +55,13 @@ class Axes(Preset):
     swap: bool = False
     """Whether the machine calls y what the sheet calls x."""
     lowest: int = 0
+    """Least coordinate that the firmware accepts, steps."""
     highest: int = 32767
-    """Range of coordinates that the firmware accepts, steps."""
+    """Greatest coordinate that the firmware accepts, steps."""
     scale_x: Annotated[float, Field(ge=0.9, le=1.1)] = 1.0
     """What lengths along the sheet's x are multiplied with, because the machine makes them off."""
     scale_y: Annotated[float, Field(ge=0.9, le=1.1)] = 1.0
+    """The same along y."""
     skew: Annotated[Deg, Field(ge=-5, le=5)] = 0.0
     """By how much a line along y is turned clockwise, because the machine leans it the other way.
 
@@ -84,7 +86,8 @@ class Tools(Preset):
     """What one unit of the machine's own force setting is worth."""
     speed_unit: MmPerSecond = Field(10.0, gt=0)
     """What one unit of the machine's own speed setting is worth."""
-    blade: Literal["drag", "tangential", "none"] = Field("drag", json_schema_extra=INFORMATION)
+    blade: Literal["drag", "tangential", "none"] = "drag"
+    """Whether a blade swivels by itself behind its axis, is turned by the machine, or is none."""
     trails: bool = True
     """Whether the tool follows the way and must be turned: a knife or wheel; not a pen or laser."""
     conditions: int = Field(1, ge=1, json_schema_extra=INFORMATION)
@@ -113,11 +116,13 @@ class Dialect(Preset):
     preamble: str = "IN;DF;PA;"
     """Exactly one IN, in front: on some machines a second one cancels the job."""
     trailer: str = "PU;SP0;"
+    """What a program ends with."""
     speed: bool = True
     """Whether VS (cm/s) is understood."""
     force: bool = True
     """Whether FS (gf) is understood."""
     line_end: str = "\n"
+    """What stands after each instruction."""
     max_instruction: int = Field(240, ge=32)
     """Longest instruction, bytes."""
 
@@ -142,6 +147,8 @@ class Serial(Preset):
 
     baud: int = 9600
     handshake: Literal["none", "xon-xoff", "esc-b"]
+    """How the machine says that it has room: not at all, by XON and XOFF, or when asked by ESC.B.
+    """
     buffer: int = Field(1024, ge=64)
     """Bytes the machine holds before it overruns."""
     answers: bool = True
@@ -159,7 +166,7 @@ class Marks(Preset):
     """Side of the filled square of optical marks."""
     arm: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
     """Length of the arms of optical marks."""
-    line: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    line_width: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
     """Width of their lines."""
 
 
@@ -167,6 +174,7 @@ class Files(Preset):
     """What the machine's own software makes of a drawing."""
 
     accepts: tuple[str, ...] = Field(("hpgl",), json_schema_extra=INFORMATION)
+    """Kinds of file that it reads."""
     tool_by: Literal["pen", "colour", "layer", "file"] = Field(
         "file", json_schema_extra=INFORMATION
     )
@@ -176,6 +184,7 @@ class Files(Preset):
     bridges: bool = Field(False, json_schema_extra=INFORMATION)
     """Whether it leaves ties by itself; foldmill leaves them in any case."""
     closes_paths: bool = Field(False, json_schema_extra=INFORMATION)
+    """Whether it joins the ends of open paths by itself."""
     curves: bool = Field(False, json_schema_extra=INFORMATION)
     """Whether it takes arcs and Bézier curves; foldmill draws straight lines in any case."""
 
@@ -185,7 +194,10 @@ class Machine(Sourced):
 
     slug: str
     title: str
-    build: Literal["roll-feed", "flatbed", "laser", "pen-plotter"]
+    build: Literal["roll-feed", "flatbed", "laser", "pen-plotter"] = Field(
+        json_schema_extra=INFORMATION
+    )
+    """What kind of machine it is."""
     language: Literal["hpgl", "gp-gl", "gcode"]
     """Programs are written in HP-GL; of the others drawings are made."""
     bed: Bed
@@ -201,6 +213,7 @@ class Machine(Sourced):
     repeatability: Mm = Field(0.15, ge=0, json_schema_extra=INFORMATION)
     """How far a line lands from where it landed before."""
     provenance: str
+    """Where the values come from that name no source of their own."""
     verified: bool
     """Whether it was tried on hardware."""
     notes: str = Field("", json_schema_extra=INFORMATION)

@@ -79,7 +79,7 @@ class Material(Sourced):
     """How much it grows with temperature."""
     directional: bool
     """Whether it has a grain or a direction of extrusion."""
-    clearance: Mm = Field(ge=0, json_schema_extra=INFORMATION)
+    layer_clearance: Mm = Field(ge=0, json_schema_extra=INFORMATION)
     """Air left between layers that are folded over each other."""
     max_layers: int = Field(ge=1, json_schema_extra=INFORMATION)
     """Most layers that can lie in one fold."""
@@ -101,6 +101,7 @@ class Material(Sourced):
     provenance: str
     """Where the values come from, and who tested them; "untested" until a coupon was read."""
     tested: bool
+    """Whether a coupon of it was cut, read and recorded."""
     tested_by: str = Field("", json_schema_extra=INFORMATION)
     """Who read the coupon."""
     tested_on: str = Field("", json_schema_extra=INFORMATION)

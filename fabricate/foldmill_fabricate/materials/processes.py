@@ -87,6 +87,7 @@ class HalfCut(_Groove):
 
     kind: Literal["half-cut"] = "half-cut"
     score_face: ScoreFace = "outside"
+    """Which face of the fold it is made on."""
 
     @property
     def remains(self) -> float:
@@ -99,6 +100,7 @@ class VScore(_Groove):
 
     kind: Literal["v-score"] = "v-score"
     score_face: ScoreFace = "inside"
+    """Which face of the fold it is made on."""
 
     @property
     def remains(self) -> float:
@@ -111,6 +113,7 @@ class CreaseWheel(_Groove):
 
     kind: Literal["crease-wheel"] = "crease-wheel"
     score_face: ScoreFace = "outside"
+    """Which face of the fold it is made on."""
 
 
 class Stylus(_Groove):
@@ -118,6 +121,7 @@ class Stylus(_Groove):
 
     kind: Literal["stylus"] = "stylus"
     score_face: ScoreFace = "inside"
+    """Which face of the fold it is made on."""
 
 
 class Perforation(Score):
@@ -125,6 +129,7 @@ class Perforation(Score):
 
     kind: Literal["perforation"] = "perforation"
     score_face: ScoreFace = "either"
+    """Which face of the fold it is made on."""
     cut: Mm = Field(gt=0)
     """Length of one cut."""
     gap: Mm = Field(gt=0)
@@ -138,6 +143,7 @@ class PenLine(Score):
 
     kind: Literal["pen"] = "pen"
     score_face: ScoreFace = "either"
+    """Which face of the fold it is made on."""
 
 
 class Cut(Process):

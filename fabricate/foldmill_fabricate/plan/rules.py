@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.materials import CreaseWheel, HalfCut, Stylus, VScore
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.plan import relief, spacing
+from foldmill_fabricate.plan import relief, shapes, spacing
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -55,6 +56,7 @@ def judge(
         *_short_creases(pattern, spots, by_face, stops, plan),
         *spacing.findings(pattern, spots, by_face, stops, plan.material, relieved),
         *relief.findings(plan.reliefs, pattern, spots),
+        *shapes.findings(pattern, spots, plan),
     )
 
 
@@ -130,6 +132,22 @@ def _depth(plan: Plan) -> Iterator[Finding]:
             f"The groove leaves a web of {material.web:.2f} mm, and {material.score.web_min:g} mm "
             f"are needed.",
             "Lower the depth ratio.",
+        )
+    if isinstance(material.score, HalfCut | VScore | CreaseWheel | Stylus):
+        yield from _depth_range(material.slug, material.score)
+
+
+def _depth_range(slug: str, score: HalfCut | VScore | CreaseWheel | Stylus) -> Iterator[Finding]:
+    low, high = score.depth_ratio_min, score.depth_ratio_max
+    if not low <= score.depth_ratio <= high:
+        deep = score.depth_ratio > high
+        yield Finding(
+            "depth-range",
+            Severity.WARNING,
+            slug,
+            f"The {score.title} goes {score.depth_ratio:.0%} into the sheet; {low:.0%} to "
+            f"{high:.0%} are usual. {'The fold may tear' if deep else 'The fold may wander'}.",
+            f"Set depth_ratio to {(low + high) / 2:.2f}.",
         )
 
 
