@@ -27,6 +27,11 @@ _GROOVES = {
     "inside": "towards its groove, which closes",
     "either": "both ways",
 }
+_FREED = {
+    "through-cut": "Take the part out of its ties and cut them flush.",
+    "score-and-snap": "Bend the waste back along the outline until it snaps off, side by side.",
+    "pen": "Cut the part out by hand along its drawn outline.",
+}
 _KINDS = {
     Assignment.M: "mountain",
     Assignment.V: "valley",
@@ -208,7 +213,7 @@ def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[
         f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
         f"a straight edge: mountains with the front outside, valleys with the reverse outside."
     )
-    steps = ["Take the part out of its ties and cut them flush.", flex]
+    steps = [_FREED[plan.material.cut.kind], flex]
     standing = [group.letter for group in found if not group.is_closed]
     closing = [group.letter for group in found if group.is_closed]
     if standing:
