@@ -34,11 +34,11 @@ A material says how it is creased and parted: each process with the tool's depth
 repeats, which face of the fold carries the groove, and where every value comes from. A machine says
 which processes it offers, with what force, up to which thickness. `foldmill plan` takes the first
 process of the material that the machine can do, or says what is missing and what would work;
-`--score` and `--outline` choose another.
+`--score` and `--outline` choose another. `--to places` draws where planning found something.
 
     foldmill materials --show pp-0.75
     foldmill plan stool.fold --material card-250 --machine flatbed-wheel-knife -o job
-    foldmill plan stool.fold --score perforation --outline score-and-snap -o job
+    foldmill plan stool.fold --score half-cut --outline score-and-snap --to svg,places -o job
 
 **No value was tried on hardware.** All materials are marked untested and all machines unverified:
 cut a piece of waste before a sheet.

@@ -99,4 +99,5 @@ def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) ->
                 f"Its rim is {gap:.2f} mm from the next hole or cut; {hole.diameter / 2:.2f} mm "
                 f"should remain.",
                 "Enlarge the design, or plan with --relief needed or none.",
+                (hole.x, hole.y),
             )

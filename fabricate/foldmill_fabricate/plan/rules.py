@@ -171,4 +171,5 @@ def _short_creases(
                     f"crease {edge} on the {face} at ({x:.1f}, {y:.1f}) mm",
                     f"It is {length:.2f} mm long, of which {length - taken:.2f} mm are scored.",
                     "Fold it by hand along a ruler, or enlarge the design.",
+                    (float(x), float(y)),
                 )

@@ -40,6 +40,7 @@ def _flaps(pattern: CreasePattern, spots: Floats, least: float) -> Iterator[Find
                 f"flap at ({x:.1f}, {y:.1f}) mm",
                 f"It stands {width:.2f} mm free of its only fold; {least:g} mm bend well.",
                 "Enlarge the design, or fold it with flat pliers along a ruler.",
+                (float(x), float(y)),
             )
 
 

@@ -151,7 +151,7 @@ def _finding(
     code, severity, wanted = verdict
     at_vertex = "Plan with --relief needed: a hole takes the vertex away. Or move"
     first = at_vertex if code == "vertex-rule" and shared else "Move"
-    x, y = grooves.lines[[i, j]].mean(axis=(0, 1))
+    x, y = _nearest(grooves.lines[i], grooves.lines[j])
     a, b = grooves.edges[[i, j]]
     return Finding(
         code,
@@ -159,4 +159,14 @@ def _finding(
         f"creases {a} ({grooves.faces[i]}) and {b} ({grooves.faces[j]}) at ({x:.1f}, {y:.1f}) mm",
         f"Their grooves come within {gap:.3f} mm of each other; {wanted} are wanted.",
         f"{first} the vertices apart, enlarge the design, or take a thinner material.",
+        (round(x, 6), round(y, 6)),
     )
+
+
+def _nearest(one: Floats, two: Floats) -> tuple[float, float]:
+    """Return the point half way between two lines where they are nearest, mm."""
+    import shapely
+
+    between = shapely.shortest_line(shapely.LineString(one), shapely.LineString(two))
+    x, y = np.array(between.coords).mean(axis=0)
+    return float(x), float(y)
