@@ -24,9 +24,10 @@ def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def foldmill(*words: str) -> int:
     """Run the command in this process; return its exit code."""
-    with pytest.MonkeyPatch.context() as patch, pytest.raises(SystemExit) as stop:
+    with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "argv", ["foldmill", *words])
-        main()
+        with pytest.raises(SystemExit) as stop:
+            main()
     return int(stop.value.code or 0)
 
 
