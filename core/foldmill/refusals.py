@@ -42,9 +42,16 @@ def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str
 
     model : where given, limits come with their units, and a misspelt name with those there are.
     """
+    return " ".join(sentence for _, sentence in sentences(error, model))
+
+
+def sentences(
+    error: ValidationError, model: type[BaseModel] | None = None
+) -> list[tuple[tuple[str | int, ...], str]]:
+    """Return the place and the sentence of each fault; ``model`` as for ``explain``."""
     schema = model.model_json_schema() if model else {}
     branches = _BRANCHES | set(_tags(schema))
-    return " ".join(_sentence(fault, schema, branches) for fault in error.errors())
+    return [(fault["loc"], _sentence(fault, schema, branches)) for fault in error.errors()]
 
 
 def _tags(node: Any) -> Iterator[str]:

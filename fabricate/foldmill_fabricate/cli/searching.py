@@ -128,11 +128,10 @@ def _targets(
 
 def _limits(material: str, sheet: str | None, least: float | None) -> tuple[Room, float]:
     """Return the sheet there is, and the shortest crease."""
-    from foldmill import installed
+    from foldmill_fabricate import shelf
     from foldmill_fabricate.explore.search.fit import Room
-    from foldmill_fabricate.hooks import MATERIALS
 
-    chosen = installed().get(MATERIALS, "material", material)
+    chosen = shelf.material(material)
     stock = (chosen.stock_width, chosen.stock_height)
     width, height = stock if sheet is None else _size(sheet)
     return Room(

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
-from foldmill_fabricate.materials import Holes
+from foldmill_fabricate.materials import Holes, Material
 from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
 from foldmill_fabricate.sheet import flipped
 
@@ -39,8 +39,11 @@ class Registration:
     findings: tuple[Finding, ...] = ()
 
 
-def register(part: Floats, sheet: Sheet, flip: Flip, holes: Holes) -> Registration:
+def register(part: Floats, sheet: Sheet, flip: Flip, material: Material) -> Registration:
     """Find holes and witness mark in the waste around a part, its outline (n, 2) on the sheet."""
+    holes = material.holes
+    if not material.cut.goes_through:
+        return Registration(findings=(_not_cut(material),))
     radius = holes.diameter / 2
     room = (holes.edge_clearance + radius, holes.part_clearance + radius)
     spots = _grid(sheet)
@@ -100,6 +103,16 @@ def _two_pairs(spots: Floats, sheet: Sheet, flip: Flip) -> tuple[Floats, Floats]
         if np.isfinite(second[j]) and (best is None or first[i] + second[j] > best[0] + 1e-9):
             best = (float(first[i] + second[j]), i, j)
     return None if best is None else (both[best[1]], both[best[2]])
+
+
+def _not_cut(material: Material) -> Finding:
+    return Finding(
+        "no-registration-holes",
+        Severity.WARNING,
+        "waste",
+        f"Registration holes are cut through, and this outline is made by {material.cut.title}.",
+        "Lay both passes against the same edge stop, and write an F on the front by hand.",
+    )
 
 
 def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:

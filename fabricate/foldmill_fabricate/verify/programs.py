@@ -105,7 +105,7 @@ def _replay(
     plan: Plan, file: ProgramFile, data: bytes, strokes: Sequence[Planned], fit: Fit | None
 ) -> Replay:
     tools = plan.machine.tools
-    trace = interpret(data, file.name, selects=bool(tools.score or tools.cut))
+    trace = interpret(data, file.name, selects=tools.selects)
     own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
     drawn = lines(trace, plan, file.face, file.name, fit)
     return Replay(file, trace, Drawing(plan, file.name, drawn, own))

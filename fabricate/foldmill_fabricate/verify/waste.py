@@ -113,16 +113,18 @@ def _hole_strokes(plan: Plan, strokes: Sequence[Planned]) -> list[Finding]:
 
 def _hole_of(plan: Plan, stroke: Planned) -> int | None:
     """Return the hole whose rim a stroke follows once around; None for none."""
-    for k, hole in enumerate(plan.holes):
-        arms = stroke.points - (hole.x, hole.y)
-        middles = (arms[1:] + arms[:-1]) / 2
-        radii = np.hypot(*np.vstack([arms, middles]).T)
-        cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
-        turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
-        is_round = np.abs(radii - hole.diameter / 2).max() <= tolerances.ROUND_MM
-        if is_round and abs(turn - 2 * np.pi) < 1e-6 and stroke.closed:
-            return k
-    return None
+    return next((k for k, hole in enumerate(plan.holes) if is_rim(stroke, hole)), None)
+
+
+def is_rim(stroke: Planned, hole: Hole) -> bool:
+    """Tell whether a stroke follows the rim of a hole once around."""
+    arms = stroke.points - (hole.x, hole.y)
+    middles = (arms[1:] + arms[:-1]) / 2
+    radii = np.hypot(*np.vstack([arms, middles]).T)
+    cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
+    turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
+    is_round = bool(np.abs(radii - hole.diameter / 2).max() <= tolerances.ROUND_MM)
+    return is_round and bool(abs(turn - 2 * np.pi) < 1e-6) and stroke.closed
 
 
 def _one_hole(plan: Plan, hole: Hole, where: str, part: Any) -> list[Finding]:
