@@ -7,6 +7,11 @@ from difflib import unified_diff
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# No test is timed, on whatever machine it runs; and a test that fails, fails for everybody.
+settings.register_profile("foldmill", deadline=None, derandomize=True)
+settings.load_profile("foldmill")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -81,7 +81,7 @@ def drawn_at(plan: Plan, face: Face, start: np.ndarray, end: np.ndarray) -> bool
 
 
 @EVERY
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(letters=st.text("MV", min_size=3, max_size=7), turn=st.floats(5, 25))
 def test_the_groove_of_every_fold_is_on_the_side_the_process_says(
     material: str, machine: str, kind: Kind, letters: str, turn: float

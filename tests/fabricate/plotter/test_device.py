@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foldmill import installed
@@ -251,7 +251,6 @@ WORDS = st.lists(
 )
 
 
-@settings(deadline=None)
 @given(WORDS, st.data())
 def test_a_program_does_the_same_however_its_bytes_come_in(
     words: list[str], data: st.DataObject

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foldmill import InvalidInput, installed
@@ -77,7 +77,6 @@ def test_what_is_no_table_of_lines_is_refused() -> None:
         planarise([[0, 1], [2, 3]])
 
 
-@settings(deadline=None)  # the first call loads and compiles
 @given(st.integers(0, 10_000), st.integers(1, 14), st.integers(3, 9))
 def test_lines_on_a_grid_keep_their_union_and_nothing_crosses(
     seed: int, count: int, size: int

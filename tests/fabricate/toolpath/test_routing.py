@@ -8,7 +8,7 @@ from itertools import pairwise
 import networkx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from stools import machine
@@ -72,7 +72,6 @@ def fewest_sharp_turns(points: np.ndarray, edges: np.ndarray) -> int:
     return total
 
 
-@settings(deadline=None)  # the first call loads and compiles
 @given(st.integers(0, 10_000), st.integers(4, 30), st.floats(0.2, 1.0))
 def test_every_edge_is_drawn_once_in_as_few_strokes_as_can_be(
     seed: int, vertices: int, share: float
@@ -107,7 +106,6 @@ def test_a_drawing_in_one_piece_has_the_least_travel(start: np.ndarray | None) -
     assert len(found.trails) == len(odd) // 2
 
 
-@settings(deadline=None)  # the first call loads and compiles
 @given(st.integers(0, 10_000), st.integers(4, 25), st.floats(0.3, 1.0))
 def test_a_wheel_that_is_not_lifted_turns_sharply_no_more_than_it_must(
     seed: int, vertices: int, share: float

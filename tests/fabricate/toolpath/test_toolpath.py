@@ -6,7 +6,7 @@ from itertools import pairwise, permutations, product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foldmill_fabricate.passes import Operation, Role, Stroke
@@ -19,7 +19,6 @@ def op(repeats: int, overcut: float = 0.0) -> Operation:
     return Operation(role=Role.SCORE, repeats=repeats, overcut=overcut, strokes=())
 
 
-@settings(deadline=None)  # the first call loads and compiles
 @given(st.integers(0, 10_000), st.integers(2, 25))
 def test_trails_go_over_every_edge_exactly_once(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
