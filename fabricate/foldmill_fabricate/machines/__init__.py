@@ -56,6 +56,12 @@ class Tools(Preset):
     firmware_offset: bool = True
     """Whether the machine itself makes up for the blade's offset."""
     blade_offset: Mm = Field(0.25, ge=0)
+    """From the holder's axis to the tip that trails it."""
+
+    @property
+    def host_offset(self) -> float:
+        """The offset that programs make up for, mm; 0 where the machine does so itself."""
+        return 0.0 if self.firmware_offset else self.blade_offset
 
 
 class Dialect(Preset):

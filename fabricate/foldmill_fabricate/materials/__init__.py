@@ -52,6 +52,9 @@ class Cut(Process):
     tie_pitch: Mm = Field(gt=0)
     tie_corner: Mm = Field(ge=0)
     """Least distance of a tie from a corner."""
+    swivel_force: GramForce = Field(0.0, ge=0)
+    """Force at which a drag knife is lifted out and turned at sharp corners: thick sheets break its
+    tip. 0: it is turned in the material."""
 
 
 class Holes(Preset):

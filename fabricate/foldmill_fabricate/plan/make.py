@@ -18,7 +18,7 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Flip, Plan, Sheet, Tie
-from foldmill_fabricate.plan import outline, registration, rules, scores, setups, sides
+from foldmill_fabricate.plan import lead_ins, outline, registration, rules, scores, setups, sides
 from foldmill_fabricate.plan.figures import measure
 from foldmill_fabricate.plan.placement import lay_blank, place
 from foldmill_fabricate.plan.registration import Registration
@@ -61,6 +61,7 @@ def make(
     marks = _register(pattern, spots, sheet, turn, material, by_face)
     lines, ties = _lines(pattern, spots, by_face, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
+    passes = lead_ins.added(passes, _rim(pattern, spots), marks, sheet, material, machine)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
         pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),
@@ -119,5 +120,10 @@ def _register(
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    part = spots[pattern.outline()[0]]
-    return registration.register(part, sheet, turn, material.holes)
+    return registration.register(_rim(pattern, spots), sheet, turn, material.holes)
+
+
+def _rim(pattern: CreasePattern, spots: Floats) -> Floats:
+    """Return the outline (n, 2) of the part on the sheet."""
+    rim: Floats = spots[pattern.outline()[0]]
+    return rim

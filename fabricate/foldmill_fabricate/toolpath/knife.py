@@ -24,6 +24,11 @@ SETTLED = 8.0
 The encoder of a widespread drawing program uses as many."""
 FACETTED = 3.0
 """Offsets. A circle of a smaller radius would be steered all the way round; it is cut in facets."""
+FACET = 2.0
+"""Offsets. Facets are no shorter, so that the blade settles on each."""
+LEAST_FACETS = 6
+SHARP_DEG = 30.0
+"""deg. A blade that is to be turned by more is lifted out for it, where the material says so."""
 
 
 def holder_ways(ways: Sequence[ArrayLike], offset: float, heading: float) -> list[Floats]:
@@ -35,6 +40,28 @@ def holder_ways(ways: Sequence[ArrayLike], offset: float, heading: float) -> lis
     for way in ways:
         holder, heading = _holder_way(np.asarray(way, float), offset, heading)
         found.append(holder)
+    return found
+
+
+def lifted_ways(
+    ways: Sequence[ArrayLike], offset: float, heading: float
+) -> list[tuple[Floats, bool]]:
+    """Return the holder's ways (m, 2), mm, broken at sharp corners, each with whether it is light.
+
+    On a light way the tip rests on the sheet and is turned; then the blade goes in again. Takes
+    what ``holder_ways`` takes.
+    """
+    found = []
+    for way in ways:
+        for gentle in _between_corners(_moving(np.asarray(way, float))):
+            course = float(_courses(gentle)[0])
+            if abs(_turn(heading, course)) > np.radians(SHARP_DEG):
+                spot = gentle[0] + offset * _unit(heading)
+                turned = np.vstack([spot[None], _swivel(gentle[0], offset, heading, course)])
+                found.append((turned, True))
+                heading = course
+            holder, heading = _holder_way(gentle, offset, heading)
+            found.append((holder, False))
     return found
 
 
@@ -62,6 +89,20 @@ def is_facetted(radius: float, offset: float) -> bool:
     return radius < FACETTED * offset
 
 
+def facets(radius: float, offset: float) -> int:
+    """Return how many facets such a circle gets: all of them touch it from outside."""
+    return max(LEAST_FACETS, int(np.pi / np.arctan(FACET * offset / (2 * radius))))
+
+
+def _between_corners(way: Floats) -> list[Floats]:
+    """Cut a way at its sharp corners; one that leads nowhere has no part."""
+    courses = _courses(way)
+    turns = [abs(_turn(one, other)) for one, other in pairwise(courses.tolist())]
+    sharp = [k for k, turn in enumerate(turns, start=1) if turn > np.radians(SHARP_DEG)]
+    cuts = [0, *sharp, len(way) - 1]
+    return [way[a : b + 1] for a, b in pairwise(cuts) if b > a]
+
+
 def _holder_way(way: Floats, offset: float, heading: float) -> tuple[Floats, float]:
     way = _moving(way)
     courses = _courses(way)
@@ -75,11 +116,16 @@ def _holder_way(way: Floats, offset: float, heading: float) -> tuple[Floats, flo
 
 def _swivel(tip: Floats, offset: float, before: float, after: float) -> Floats:
     """Return the chords (n, 2) on which the holder swings about the tip, without where it is."""
-    turn = (after - before + np.pi) % (2 * np.pi) - np.pi
+    turn = _turn(before, after)
     widest = 2 * np.arccos(max(1.0 - SAGITTA_MM / offset, 0.0))
     count = int(np.ceil(abs(turn) / widest))
     angles = before + turn * np.arange(1, count + 1) / max(count, 1)
     return tip + offset * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _turn(before: float, after: float) -> float:
+    """Return by how much to turn, rad, the shorter way round."""
+    return (after - before + np.pi) % (2 * np.pi) - np.pi
 
 
 def _moving(way: Floats) -> Floats:

@@ -188,7 +188,8 @@ class Drawing:
         wanted = wanted_counts(self.strokes)
         uneven = difference(on_wanted, wanted)
         slack = tolerances.SLACK_STEPS * self.step
-        long = uneven.take(uneven.lengths > max(slack, 2 * self.tolerance))
+        blade = tolerances.SLACK_BLADE * (self.tolerance - self.step)
+        long = uneven.take(uneven.lengths > max(slack, 2 * self.tolerance, blade))
         lost = set(self.missing.line.tolist())
         found = []
         for line, rows in _grouped(_rows(long)).items():

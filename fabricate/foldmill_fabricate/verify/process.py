@@ -128,6 +128,7 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
         "exposure": (setup.exposure, process.exposure),
         "force": (setup.force, min(process.force, tools.max_force)),
         "speed": (setup.speed, process.speed),
+        "swivel force": (setup.swivel_force, _swivel_force(plan, setup)),
     }
     where = f"set-up {setup.number} ({setup.name})"
     found = [
@@ -138,6 +139,14 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
     for operation in setup.operations:
         found += _operation_findings(setup, operation, process.repeats, process.overcut, where)
     return found
+
+
+def _swivel_force(plan: Plan, setup: SetUp) -> float:
+    """Return with which force a blade is turned out of its cut: where a program can do that."""
+    machine = plan.machine
+    steered = not machine.tools.firmware_offset and machine.tools.blade_offset > 0
+    possible = steered and machine.dialect.force and setup.process == "cut"
+    return plan.material.cut.swivel_force if possible else 0.0
 
 
 def _operation_findings(
@@ -151,7 +160,10 @@ def _operation_findings(
         text = f"{_plural(operation.role)} are repeated {operation.repeats} times, not {repeats}."
         found.append(_error("set-up-values", where, text))
     closed = any(stroke.closed for stroke in operation.strokes)
-    if closed and operation.overcut != overcut:
+    if operation.overcut > 0 and _PROCESS[operation.role] == "score":
+        text = f"{_plural(operation.role)} run {operation.overcut:g} mm past their ends, into what "
+        found.append(_error("overcut-on-score", where, f"{text}they must not touch."))
+    elif closed and operation.overcut != overcut:
         text = f"The overcut of closed strokes is {operation.overcut:g} mm, not {overcut:g} mm."
         found.append(_error("set-up-values", where, text))
     return found

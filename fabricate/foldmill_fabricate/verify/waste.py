@@ -13,7 +13,7 @@ from foldmill_fabricate.passes import Hole, Plan, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import Asked
 from foldmill_fabricate.verify.planned import Planned, at
-from foldmill_fabricate.verify.virtual_sheet import turned_over
+from foldmill_fabricate.verify.virtual_sheet import modelled_offset, turned_over
 
 Floats = NDArray[np.float64]
 
@@ -119,10 +119,22 @@ def _hole_of(plan: Plan, stroke: Planned) -> int | None:
         radii = np.hypot(*np.vstack([arms, middles]).T)
         cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
         turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
-        is_round = np.abs(radii - hole.diameter / 2).max() <= tolerances.ROUND_MM
+        is_round = _is_round(radii, hole.diameter / 2, modelled_offset(plan.machine))
         if is_round and abs(turn - 2 * np.pi) < 1e-6 and stroke.closed:
             return k
     return None
+
+
+def _is_round(radii: Floats, radius: float, offset: float) -> bool:
+    """Tell whether corners and middles of facets lie on a circle, as well as a blade can follow.
+
+    Where it needs long facets, they touch the circle from outside: a pin of its diameter fits.
+    """
+    if radius >= tolerances.FACETTED * offset:
+        return bool(np.abs(radii - radius).max() <= tolerances.ROUND_MM)
+    most = radius / np.cos(np.pi / tolerances.LEAST_FACETS)
+    fits = radii.min() >= radius - tolerances.PLAN_MM
+    return bool(fits and radii.max() <= most + tolerances.PLAN_MM)
 
 
 def _one_hole(plan: Plan, hole: Hole, where: str, part: Any) -> list[Finding]:

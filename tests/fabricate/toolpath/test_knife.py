@@ -12,10 +12,13 @@ from numpy.typing import NDArray
 from foldmill_fabricate.formats.hpgl import half_away
 from foldmill_fabricate.toolpath.knife import (
     FACETTED,
+    SHARP_DEG,
+    facets,
     holder_ways,
     is_facetted,
     last_heading,
     lead_in,
+    lifted_ways,
 )
 
 Floats = NDArray[np.float64]
@@ -108,3 +111,37 @@ def test_a_circle_is_facetted_below_three_offsets() -> None:
     assert is_facetted(2.5, 0.9)
     assert not is_facetted(2.5, 0.25)
     assert not is_facetted(FACETTED * 0.9, 0.9)
+
+
+@pytest.mark.parametrize("offset", OFFSETS)
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_blade_that_is_lifted_out_at_sharp_corners_is_turned_nowhere_else(
+    name: str, offset: float
+) -> None:
+    ways = SHAPES[name]
+    entry = lead_in((-60.0, -60.0), offset, along=0.4)
+    planned = lifted_ways(ways, offset, last_heading(entry))
+    _, headings = drag(entry, offset, STARTS)
+    cut = []
+    for holder, light in planned:
+        tips, after = drag(holder, offset, headings)
+        turned = np.abs((after - headings + np.pi) % (2 * np.pi) - np.pi).max()
+        if light:
+            assert np.hypot(*(tips - tips[:1]).transpose(2, 0, 1)).max() <= 0.01
+            assert turned > np.radians(SHARP_DEG - 1)
+        else:
+            assert turned <= np.radians(SHARP_DEG) + 1e-6
+            cut.append(shapely.LineString(tips[:, 0]))
+        headings = after
+    lines = shapely.MultiLineString(ways)
+    assert shapely.hausdorff_distance(shapely.MultiLineString(cut), lines) <= 0.02
+    assert shapely.MultiLineString(cut).buffer(0.02).covers(lines)
+
+
+@pytest.mark.parametrize("offset", [0.3, 0.6, 0.9])
+@pytest.mark.parametrize("radius", [0.5, 1.0, 2.0, 2.5])
+def test_facets_are_as_many_as_the_blade_settles_on(radius: float, offset: float) -> None:
+    count = facets(radius, offset)
+    side = 2 * radius * np.tan(np.pi / count)
+    finer = 2 * radius * np.tan(np.pi / (count + 1))
+    assert count == 6 or side >= 2 * offset > finer
