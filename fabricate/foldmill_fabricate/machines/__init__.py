@@ -84,6 +84,8 @@ class Motion(Preset):
 
     travel_speed: MmPerSecond = Field(gt=0)
     acceleration: MmPerSecond2 = Field(gt=0)
+    corner_speed: MmPerSecond = Field(10.0, gt=0)
+    """Change of velocity at a corner that is taken without slowing down further."""
     lift_time: Seconds = Field(ge=0)
     tool_time: Seconds = Field(ge=0)
     swivel_speed: DegPerSecond = Field(360.0, gt=0)

@@ -36,7 +36,7 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
         drawn=round(drawn, 3),
         travel=round(travel, 3),
         travel_bound=round(bound, 3),
-        seconds=round(seconds, 1),
+        seconds=round(seconds + _put_away(passes, machine), 1),
     )
 
 
@@ -60,10 +60,18 @@ def _seen(points: Floats, face: Face, sheet: Sheet, flip: Flip) -> Floats:
 
 def _seconds(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) -> float:
     model = machine.motion
-    total = model.tool_time
+    speed = motion.told_speed(setup.speed, machine)
+    total = model.tool_time if setup.tool else 0.0
     for path in paths:
         hop = float(np.hypot(*(path[0] - at)))
         total += float(motion.move_seconds([hop], model.travel_speed, model.acceleration)[0])
-        total += 2 * model.lift_time + motion.path_seconds(path, setup.speed, model)
+        total += 2 * model.lift_time + motion.path_seconds(path, speed, model)
         at = path[-1]
     return total
+
+
+def _put_away(passes: tuple[Pass, ...], machine: Machine) -> float:
+    """Return the time in which each program puts its last tool away at its end."""
+    by_hand = machine.tools.change == "operator"
+    last = [setup for work in passes for setup in (work.setups if by_hand else work.setups[-1:])]
+    return machine.motion.tool_time * sum(setup.tool != 0 for setup in last)
