@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from foldmill import Assignment
 from foldmill.finding import Finding, Severity
 from foldmill.tolerances import COINCIDENT_MM
-from foldmill_fabricate.passes import Role
+from foldmill_fabricate.passes import Face, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import FACES, NOWHERE, Asked
 from foldmill_fabricate.verify.cover import (
@@ -42,6 +42,29 @@ def prove_creases(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
         found += _uneven(asked, face, drawn[face], wrong)
         found += _stray(asked, face, drawn[face], scores[face], wrong)
     return unassigned + found
+
+
+def astray(asked: Asked, strokes: Sequence[Planned]) -> list[tuple[Face, bool, Pieces, Stretches]]:
+    """Return stretches that are not scored (True), and that are and should not be (False)."""
+    found = []
+    least, most = asked.setbacks
+    for face, name in enumerate(FACES):
+        drawn = pieces([s.points for s in strokes if s.role is Role.SCORE and s.face is name])
+        mine = asked.score_face == face
+        near, along = _coverage(asked, mine, drawn)
+        required = _between(mine, most[:, 0], asked.lengths - most[:, 1])
+        allowed = _between(mine, least[:, 0], asked.lengths - least[:, 1])
+        lost, more = difference(along, required), difference(along, allowed)
+        found += [
+            (name, True, asked.lines(mine), _marked(lost.take(lost.count < 0))),
+            (name, False, asked.lines(mine), _marked(more.take(more.count > 0))),
+            (name, False, drawn, _marked(uncovered(drawn, near.near()))),
+        ]
+    return found
+
+
+def _marked(parts: Stretches) -> Stretches:
+    return parts.take(parts.lengths > tolerances.UNEVEN_MM)
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:

@@ -13,7 +13,8 @@ from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.cover import pairs, pieces, uncovered
 from foldmill_fabricate.verify.drawing import Drawing
-from foldmill_fabricate.verify.interpreter import Trace, interpret
+from foldmill_fabricate.verify.interpreter import Trace
+from foldmill_fabricate.verify.languages import replay
 from foldmill_fabricate.verify.limits import outside
 from foldmill_fabricate.verify.offsets import wrong_offset
 from foldmill_fabricate.verify.planned import Planned, at, planned, program_files
@@ -52,11 +53,11 @@ def prove_programs(plan: Plan, programs: Mapping[str, bytes], fit: Fit | None) -
             continue
         data = programs[file.name]
         findings += _hash_findings(file, data, fit)
-        replay = _replay(plan, file, data, strokes, fit)
-        replays.append(replay)
-        findings += [*replay.trace.findings, *outside(plan, file.name, replay.trace)]
-        findings += replay.steering
-        findings += _drawing_findings(plan, replay, strokes, fit)
+        replayed = _replay(plan, file, data, strokes, fit)
+        replays.append(replayed)
+        findings += [*replayed.trace.findings, *outside(plan, file.name, replayed.trace)]
+        findings += replayed.steering
+        findings += _drawing_findings(plan, replayed, strokes, fit)
     return ProgramProof(tuple(replays), tuple(findings))
 
 
@@ -109,8 +110,7 @@ def _hash_findings(file: ProgramFile, data: bytes, fit: Fit | None) -> list[Find
 def _replay(
     plan: Plan, file: ProgramFile, data: bytes, strokes: Sequence[Planned], fit: Fit | None
 ) -> Replay:
-    tools = plan.machine.tools
-    trace = interpret(data, file.name, selects=bool(tools.score or tools.cut))
+    trace = replay(data, file.name, plan.machine)
     own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
     drawn = steered(trace, plan, file, fit)
     return Replay(file, trace, Drawing(plan, file.name, drawn.lines, own), drawn.findings)
