@@ -60,8 +60,8 @@ class Tools(Preset):
 
     @property
     def host_offset(self) -> float:
-        """The offset that programs make up for, mm; 0 where the machine does so itself."""
-        return 0.0 if self.firmware_offset else self.blade_offset
+        """The offset that programs make up for, mm; 0 where the machine does, or nothing trails."""
+        return self.blade_offset if self.trails and not self.firmware_offset else 0.0
 
 
 class Dialect(Preset):

@@ -22,6 +22,8 @@ _STEPS = 12.0 * np.linspace(0.0, 1.0, 97)[1:] ** 2
 angle is 6e-6 of itself."""
 _FEW = _STEPS[7::8]
 """Stations where the blade hardly turns."""
+_SHORT = 0.5
+"""Offsets. The tip hardly goes on along a line as short as a chord of a swivel."""
 _HARDLY = 0.05
 """rad. A blade this near to its course leaves the chords between few stations by 0.006 mm."""
 
@@ -56,7 +58,8 @@ def _drag(path: Floats, offset: float, headings: Floats) -> tuple[Floats, Floats
             continue
         course = float(np.arctan2(*(end - start)[::-1]))
         astray = _wrapped(angles[-1][:, -1] - course)
-        table = _FEW if np.abs(astray).max() < _HARDLY else _STEPS
+        coarse = length < _SHORT * offset or np.abs(astray).max() < _HARDLY
+        table = _FEW if coarse else _STEPS
         stations = np.append(table[table * offset < length] * offset, length)
         left = np.tan(astray / 2)[:, None] * np.exp(-stations / offset)
         angles.append(course + 2 * np.arctan(left))

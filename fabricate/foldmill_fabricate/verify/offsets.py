@@ -30,10 +30,11 @@ def wrong_offset(drawing: Drawing, face: Face, fit: Fit | None) -> Cause | None:
     if offset and explained(planned, holders, step) >= tolerances.EXPLAINED:
         text = f"It leads the holder where the tip should go, which trails {offset:g} mm behind."
         return Cause("offset-left-out", text, _REMEDY)
-    used = _used(planned, holders, step)
+    used, at_ends = _used(planned, holders, step)
     if used <= 3 * step or abs(used - offset) < step / 2:
         return None
-    ways = tips(holders, used)
+    # a lead-in, which begins at no stroke's end, is no stroke
+    ways = [way for way, own in zip(tips(holders, used), at_ends, strict=True) if own]
     if explained(planned, ways, 2 * step + tolerances.BLADE_MM) < tolerances.EXPLAINED:
         return None
     made_for = f"It makes up for a blade that trails {used:.2f} mm behind its holder"
@@ -44,12 +45,14 @@ def wrong_offset(drawing: Drawing, face: Face, fit: Fit | None) -> Cause | None:
     return Cause("offset-twice", text, "Write the program for this machine.")
 
 
-def _used(planned: Sequence[Floats], holders: Sequence[Floats], step: float) -> float:
-    """Return how far from the ends of strokes the program sets its holder down, mm."""
+def _used(
+    planned: Sequence[Floats], holders: Sequence[Floats], step: float
+) -> tuple[float, list[bool]]:
+    """Return how far from the ends of strokes the holder is set down, mm, and which ways are so."""
     from scipy.spatial import cKDTree
 
     ends = np.vstack([[line[0], line[-1]] for line in planned])
     starts = np.array([way[0] for way in holders])
     gaps = cKDTree(ends).query(starts)[0]
     near = np.abs(gaps - np.sort(gaps)[len(gaps) // 2]) <= 1.5 * step
-    return float(gaps[near].mean())
+    return float(gaps[near].mean()), near.tolist()

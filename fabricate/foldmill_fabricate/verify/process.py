@@ -6,6 +6,7 @@ from itertools import pairwise
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp
+from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 
 _PROCESS = {
     Role.HOLE: "cut",
@@ -143,9 +144,8 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
 
 def _swivel_force(plan: Plan, setup: SetUp) -> float:
     """Return with which force a blade is turned out of its cut: where a program can do that."""
-    machine = plan.machine
-    steered = not machine.tools.firmware_offset and machine.tools.blade_offset > 0
-    possible = steered and machine.dialect.force and setup.process == "cut"
+    steered = modelled_offset(plan.machine) > 0
+    possible = steered and plan.machine.dialect.force and setup.process == "cut"
     return plan.material.cut.swivel_force if possible else 0.0
 
 

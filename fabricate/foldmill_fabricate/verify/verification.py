@@ -75,9 +75,13 @@ def verify(
     findings = _digest([*own, *proof.findings, *prove_rule(plan, pattern)])
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
-    faults = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
-    faults += planned_faults(Asked(plan, pattern), planned(plan))
-    return Verification(plan.title, findings, figures, lines, tuple(faults))
+    faults = _faults(plan, pattern, proof) if has_errors(findings) else ()
+    return Verification(plan.title, findings, figures, lines, faults)
+
+
+def _faults(plan: Plan, pattern: CreasePattern, proof: ProgramProof) -> tuple[Fault, ...]:
+    drawn = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
+    return (*drawn, *planned_faults(Asked(plan, pattern), planned(plan)))
 
 
 def _digest(findings: Sequence[Finding]) -> tuple[Finding, ...]:

@@ -33,8 +33,12 @@ class Line:
 
 
 def modelled_offset(machine: Machine) -> float:
-    """Return the distance from blade axis to tip, mm; 0 where the machine makes up for it."""
-    return 0.0 if machine.tools.firmware_offset else machine.tools.blade_offset
+    """Return the distance from blade axis to tip, mm; 0 where the machine makes up for it.
+
+    A pen or a laser has none.
+    """
+    tools = machine.tools
+    return 0.0 if tools.firmware_offset or not tools.trails else tools.blade_offset
 
 
 def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:

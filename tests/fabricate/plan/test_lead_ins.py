@@ -15,6 +15,7 @@ from foldmill_fabricate.formats import hpgl, svg
 from foldmill_fabricate.jobsheet import words
 from foldmill_fabricate.passes import Plan, Role
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.verify import verify
 
 OFFSETS = (0.25, 0.9)
 
@@ -65,6 +66,12 @@ def test_its_two_legs_are_eight_offsets_long_and_square_to_each_other(offset: fl
 
 def test_a_machine_that_makes_up_for_its_blade_gets_no_lead_in() -> None:
     assert lead_ins(stools.stool_plan()) == [()] * 4
+
+
+def test_a_pen_has_no_offset_whatever_its_machine_knows_of_blades() -> None:
+    plan = make(stools.stool(), stools.material(), knife_job.knife(0.9, trails=False))
+    assert lead_ins(plan) == [()] * 4
+    assert verify(plan, stools.stool().pattern, hpgl.write(plan, stools.stool())).ok
 
 
 def test_a_sheet_without_room_for_it_is_refused_in_a_sentence() -> None:
