@@ -10,7 +10,7 @@ help:
 	@echo "make demo     the stool, end to end, into out/stool/"
 	@echo "make test     format, lint, types, import rules and all tests"
 	@echo "make tools    the independent readers hp2xx and LibreCAD (Debian, as root)"
-	@echo "make pictures draw docs/gallery.md and its pictures anew"
+	@echo "make pictures draw docs/gallery.md, the table of materials and machines, and their pictures anew"
 	@echo "make goldens  rewrite the golden files after a wanted change"
 
 $(READY): pyproject.toml constraints.txt
@@ -39,6 +39,7 @@ goldens: $(READY)
 
 pictures: $(READY)
 	$(BIN)/python examples/gallery.py docs
+	$(BIN)/python examples/handbook.py docs
 
 tools:
 	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb

@@ -19,7 +19,8 @@ The second table is the whole way through ``batch`` (bounds, sorting out, figure
 every (r_1, β) once, and with each by ten pairs of φ and L, where it is computed once. "one by one"
 is generate and check of the same rows: what a family without a batch takes.
 
-The last lines are the start of a new process up to the first verdict: with nothing kept from
+The last lines are the start of a new process up to the first verdict, compiled however few there
+are to judge: with nothing kept from
 before, and with what the process before has kept. All on one core, one thread, in seconds of
 processor time, so that other work on the machine does not count.
 """
@@ -54,6 +55,8 @@ ROUNDS = 5
 ROWS = int(sys.argv[1]) if len(sys.argv) > 1 else 200_000
 FIRST = """
 import time
+import foldmill.kernels.tables
+foldmill.kernels.tables.COMPILED_FROM = 0
 began = time.process_time()
 from foldmill.configurations import outcomes
 from foldmill_plugins.six_crease import DESIGN

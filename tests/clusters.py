@@ -87,21 +87,24 @@ def worker(address: str, name: str, at: Path, env: dict[str, str]) -> Iterator[P
     import distributed
 
     connect: Any = distributed.Client
-
-    words = [address, "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny", "--no-dashboard"]
-    words += ["--name", name, "--local-directory", str(at / name)]
-    with (
-        process("distributed.cli.dask_worker", *words, at=at, env=env) as running,
-        connect(address, set_as_default=False) as client,
-    ):
+    with starting(address, name, at, env) as running, connect(address, set_as_default=False) as c:
         until = time.monotonic() + WAIT_S
-        while name not in names(client):
+        while name not in names(c):
             assert time.monotonic() < until, (at / "log.txt").read_text()
             time.sleep(0.05)
         yield running
         running.kill()
-        while name in names(client):
+        while name in names(c):
             time.sleep(0.05)
+
+
+@contextmanager
+def starting(address: str, name: str, at: Path, env: dict[str, str]) -> Iterator[Process]:
+    """Run a worker that has yet to join its scheduler."""
+    words = [address, "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+    words += ["--name", name, "--local-directory", str(at / name)]
+    with process("distributed.cli.dask_worker", *words, at=at, env=env) as running:
+        yield running
 
 
 def names(client: Any) -> set[str]:

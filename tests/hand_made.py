@@ -55,7 +55,8 @@ def machine(slug: str = "generic-hpgl-600", **changes: object) -> Machine:
 
 def material() -> Material:
     """Return the shipped polypropylene."""
-    return next(iter(presets.shipped(Material, materials.__name__)))
+    shipped = presets.shipped(Material, materials.__name__)
+    return next(each for each in shipped if each.slug == "pp-0.75")
 
 
 def fold() -> Fold:
@@ -161,7 +162,7 @@ def _setup(
         number=number,
         name=name,
         process="score" if scored else "cut",
-        tool=tool.tools.score if scored else tool.tools.cut,
+        tool=tool.tools.station(process.kind),
         exposure=process.exposure,
         force=process.force,
         speed=process.speed,

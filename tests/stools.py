@@ -6,7 +6,7 @@ from functools import cache
 
 from foldmill import Fold, installed
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Material
+from foldmill_fabricate.materials import Material, ThroughCut
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
 
@@ -23,6 +23,12 @@ def stool(preset: str = "stool-n8") -> Fold:
 def material() -> Material:
     found: Material = installed().get("foldmill_materials", "material", "pp-0.75")
     return found
+
+
+def through_cut(of: Material) -> ThroughCut:
+    """Return how the material is cut through; the outline must be made so."""
+    assert isinstance(of.cut, ThroughCut)
+    return of.cut
 
 
 def machine(slug: str = ONE_TOOL) -> Machine:

@@ -20,6 +20,7 @@ from foldmill.folded import FoldedForm
 from foldmill.hooks import hookimpl
 from foldmill.pattern import Assignment, CreasePattern
 from foldmill.registry import installed
+from foldmill.stage import Stage
 
 __all__ = [
     "Angle",
@@ -41,6 +42,7 @@ __all__ = [
     "Outcomes",
     "Params",
     "PluginFault",
+    "Stage",
     "Symmetry",
     "UnknownName",
     "UnreadableFile",

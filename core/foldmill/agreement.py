@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from foldmill.batch import Column, Outcome, Outcomes
-from foldmill.configurations import one_by_one
+from foldmill.configurations import one_by_one, outcomes
 from foldmill.design import Design, Params
-from foldmill.errors import InvalidParameters
+from foldmill.errors import BrokenBatch, InvalidParameters
 from foldmill.schema import Leaf, inside, leaves, outside
 from foldmill.tolerances import FIGURE
 
@@ -38,10 +38,11 @@ def faults(design: Design[Any], base: Params, seed: str) -> Iterator[str]:
     if design.batch is None:
         return
     for columns in _samples(design, base, random.Random(seed)):
-        found = design.batch(base, columns)
         true = one_by_one(design, base, columns)
-        if not isinstance(found, Outcomes) or len(found) != len(true):
-            yield f"For {len(true)} rows it does not return Outcomes of as many rows."
+        try:
+            found = outcomes(design, base, columns)
+        except BrokenBatch as error:
+            yield str(error)
             return
         for row in range(len(true)):
             said = _row_fault(found, true, row)

@@ -7,10 +7,17 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from foldmill.batch import NOWHERE, Column, Outcome, Outcomes
+from foldmill.batch import NOWHERE, Column, Outcome, Outcomes, breaches
 from foldmill.check import check, penetration
 from foldmill.design import Design, Fold, Params, Symmetry
-from foldmill.errors import InvalidInput, InvalidParameters, NoCandidate, PluginFault
+from foldmill.errors import (
+    BrokenBatch,
+    InvalidInput,
+    InvalidParameters,
+    NoCandidate,
+    PluginFault,
+    one_line,
+)
 from foldmill.folded import FoldedForm
 from foldmill.tolerances import COINCIDENT_MM
 
@@ -21,14 +28,43 @@ def outcomes(design: Design[P], base: P, columns: Mapping[str, Column]) -> Outco
     """Return what becomes of a design when some of its parameters take the values of columns.
 
     base : the parameters that all rows share; columns : (n,) each, by dotted name.
-    Raises InvalidParameters for columns of unequal length or of no parameter, PluginFault.
+    Raises InvalidParameters for columns of unequal length or of no parameter, BrokenBatch where the
+    design's own batch breaks its contract, PluginFault.
     """
     lengths = {name: len(column) for name, column in columns.items()}
     if len(set(lengths.values())) > 1:
         raise InvalidParameters(f"The columns must be equally long, but they are {lengths}.")
     if design.batch is not None:
-        return design.batch(base, columns)
+        return _of_batch(design, base, {name: _lent(each) for name, each in columns.items()})
     return one_by_one(design, base, columns)
+
+
+def _lent(column: Column) -> Column:
+    """Return a column that cannot be written into."""
+    lent = column.view()
+    lent.flags.writeable = False
+    return lent
+
+
+def _of_batch(design: Design[P], base: P, columns: Mapping[str, Column]) -> Outcomes:
+    assert design.batch is not None
+    try:
+        found = design.batch(base, columns)
+    except InvalidParameters:
+        raise
+    except InvalidInput as error:
+        raise _broken(design, f"it fails with {one_line(error).rstrip('.')}") from error
+    rows = len(next(iter(columns.values()), ()))
+    for said in breaches(found, rows, {*columns, *type(base).model_fields}):
+        raise _broken(design, said)
+    return found
+
+
+def _broken(design: Design[Any], said: str) -> BrokenBatch:
+    return BrokenBatch(
+        f"The batch of the family {design.slug!r} is broken: {said}. Tell its author; "
+        "replace(design, batch=None) does without it."
+    )
 
 
 def one_by_one(design: Design[P], base: P, columns: Mapping[str, Column]) -> Outcomes:
@@ -42,7 +78,7 @@ def one_by_one(design: Design[P], base: P, columns: Mapping[str, Column]) -> Out
         rows.append(measured)
     names = sorted({name for measured in rows for name in measured})
     figures = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
-    return Outcomes(codes, at, figures)
+    return Outcomes(codes, at, figures, alone=count)
 
 
 def with_values(design: Design[P], base: P, values: Mapping[str, float]) -> P:

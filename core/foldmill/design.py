@@ -29,6 +29,7 @@ from foldmill.handle import Handle
 from foldmill.motion import Motion
 from foldmill.pattern import CreasePattern, Indices
 from foldmill.refusals import explain
+from foldmill.stage import Stage
 
 MOST_MM = 1e5
 """mm. Nothing in a pattern lies farther out: 100 m of paper, far below where squares overflow."""
@@ -131,6 +132,8 @@ class Design(Generic[P]):
     """Many configurations at once: (base, columns by dotted name) → outcomes, row by row. Where a
     design has none, its rows are generated and checked one by one. Raises InvalidParameters where
     it does not know a column; a row out of bounds is REFUSED, never raised."""
+    stages: Callable[[P], tuple[Stage, ...]] | None = None
+    """The shapes on the way to the form, in order, for pictures: parameters → stages."""
 
     def schema(self) -> dict[str, Any]:
         """Return the JSON schema of the parameters, ``x-unit`` beside every physical quantity."""

@@ -11,6 +11,7 @@
     │   └── UnreadableFile               a file that is not what its name says
     ├── UnknownName (LookupError)        no such family, preset, material, machine or format
     └── PluginFault (TypeError)          a plugin that breaks its contract
+        └── BrokenBatch                  a batch that returns what no batch may return
 
 Their text is for people: what, where, by how much, what to do.
 """
@@ -68,6 +69,10 @@ class UnknownName(FoldmillError, LookupError):
 
 class PluginFault(FoldmillError, TypeError):
     """A plugin that does not keep its contract."""
+
+
+class BrokenBatch(PluginFault):
+    """A batch that returns what no batch may return, so that none of its rows can be believed."""
 
 
 def one_line(error: BaseException) -> str:

@@ -30,6 +30,8 @@ class Finding:
     """One sentence: what, and by how much."""
     remedy: str = ""
     """One sentence: what to do; empty where nothing needs to be done."""
+    at: tuple[float, float] | None = None
+    """The place on the sheet or in the pattern, mm, where it is one point and can be marked."""
 
     def __str__(self) -> str:
         place = f"{self.where}: " if self.where else ""

@@ -13,6 +13,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from foldmill.errors import InvalidParameters
+from foldmill.refusals import explain
 
 Floats = NDArray[np.float64]
 
@@ -87,5 +91,30 @@ class Handle:
     """(2,) or (3,) mm."""
     locus: Line | Plane | Circle
     drag: Callable[[Any, Floats], Any]
-    """(parameters, point) → parameters: pure; the point is first brought onto the locus, the value
-    clamped to what is valid, or InvalidParameters raised with the sentence."""
+    """(parameters, point) → parameters: pure. The point is brought onto the locus and the value
+    within its bounds. InvalidParameters where a point has the wrong length or is not finite.
+    Whether a form exists there is for ``Design.run`` to say: a page keeps the last one that did."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "drag", self._guarded(self.drag))
+
+    def _guarded(self, drag: Callable[[Any, Floats], Any]) -> Callable[[Any, Floats], Any]:
+        """Refuse points that are none, so that no family meets one."""
+        size = len(self.position)
+
+        def guarded(params: Any, point: Floats) -> Any:
+            try:
+                spot = np.asarray(point, np.float64)
+            except (TypeError, ValueError):
+                spot = np.zeros(0)
+            if spot.shape != (size,) or not np.isfinite(spot).all():
+                raise InvalidParameters(
+                    f"The handle {self.name} is dragged to {point!r}; give {size} finite numbers "
+                    "in mm."
+                )
+            try:
+                return drag(params, spot)
+            except ValidationError as error:
+                raise InvalidParameters(explain(error, type(params))) from None
+
+        return guarded

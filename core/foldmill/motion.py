@@ -55,13 +55,19 @@ class Motion:
 
     def at(self, t: float) -> Floats:
         """Return the vertices (V, 3) mm at t; raises InvalidParameters beyond its reach."""
-        if not 0 <= t <= self.reach:
-            why = f" {self.reason}" if t > self.reach and self.reason else ""
+        is_number = isinstance(t, int | float | np.number)
+        if not is_number or not 0 <= t <= self.reach:
+            why = f" {self.reason}" if is_number and t > self.reach and self.reason else ""
             raise InvalidParameters(
-                f"The motion {self.name!r} goes from t = 0 to {self.reach:g}, not to {t:g}.{why}"
+                f"The motion {self.name!r} goes from t = 0 to {self.reach:g}, not to {t}.{why}"
             )
         return self.path(t)
 
     def frames(self, steps: int) -> list[Floats]:
-        """Return the vertices at ``steps`` + 1 even places from the start to its reach."""
+        """Return the vertices at ``steps`` + 1 even places from the start to its reach.
+
+        Raises InvalidParameters for less than one step.
+        """
+        if steps < 1:
+            raise InvalidParameters(f"A motion takes one step at least, not {steps}.")
         return [self.at(self.reach * k / steps) for k in range(steps + 1)]

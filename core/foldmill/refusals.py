@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -12,6 +12,8 @@ from foldmill.schema import ANY, leaves, objects
 
 _BRANCHES = {"line", "free"}
 """Names of alternatives that pydantic adds to a place; no person wrote them."""
+LONGEST = 80
+"""Characters of a given value that a sentence repeats."""
 _LIMITS = {
     "greater_than": ("more than", "gt"),
     "greater_than_equal": ("at least", "ge"),
@@ -40,12 +42,28 @@ def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str
 
     model : where given, limits come with their units, and a misspelt name with those there are.
     """
+    return " ".join(sentence for _, sentence in sentences(error, model))
+
+
+def sentences(
+    error: ValidationError, model: type[BaseModel] | None = None
+) -> list[tuple[tuple[str | int, ...], str]]:
+    """Return the place and the sentence of each fault; ``model`` as for ``explain``."""
     schema = model.model_json_schema() if model else {}
-    return " ".join(_sentence(fault, schema) for fault in error.errors())
+    branches = _BRANCHES | set(_tags(schema))
+    return [(fault["loc"], _sentence(fault, schema, branches)) for fault in error.errors()]
 
 
-def _sentence(fault: Mapping[str, Any], schema: dict[str, Any]) -> str:
-    path = tuple(str(part) for part in fault["loc"] if part not in _BRANCHES)
+def _tags(node: Any) -> Iterator[str]:
+    """Yield the values by which alternatives are told apart; pydantic adds them to a place too."""
+    if isinstance(node, dict):
+        yield from node.get("discriminator", {}).get("mapping", {})
+    for part in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield from _tags(part)
+
+
+def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[str]) -> str:
+    path = tuple(str(part) for part in fault["loc"] if part not in branches)
     name, kind, context = ".".join(path), fault["type"], fault.get("ctx", {})
     if kind == "missing":
         return f"{name} is missing: give it a value."
@@ -59,6 +77,12 @@ def _sentence(fault: Mapping[str, Any], schema: dict[str, Any]) -> str:
         return f"{name} must be {_KINDS[kind]}, not {_given(fault)}."
     if kind in {"literal_error", "enum"} and name:
         return f"{name} must be {context['expected']}, not {_given(fault)}."
+    if kind == "union_tag_not_found":
+        key = context["discriminator"].strip("'")
+        return f"{name}.{key} is missing: say which of its kinds it is."
+    if kind == "union_tag_invalid":
+        key, known = (context[each].strip("'") for each in ("discriminator", "expected_tags"))
+        return f"{name}.{key} must be one of '{known}', not {context['tag']!r}."
     said = fault["msg"].removeprefix("Value error, ").rstrip(".")
     shown = "" if isinstance(fault["input"], (Mapping, list, tuple)) else f" (got {_given(fault)})"
     return f"{name}: {said}{shown}." if name else f"{said[:1].upper()}{said[1:]}."
@@ -68,7 +92,8 @@ def _given(fault: Mapping[str, Any]) -> str:
     given = fault["input"]
     if isinstance(given, float):
         return "NaN" if math.isnan(given) else f"{given:g}"
-    return repr(given)
+    said = repr(given)
+    return said if len(said) <= LONGEST else f"{said[: LONGEST - 3]}..."
 
 
 def _unit(path: tuple[str, ...], schema: dict[str, Any]) -> str:

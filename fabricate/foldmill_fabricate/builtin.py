@@ -7,7 +7,7 @@ from types import ModuleType
 
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
-from foldmill_fabricate.formats import dxf, hpgl, svg
+from foldmill_fabricate.formats import dxf, hpgl, places, svg
 from foldmill_fabricate.hooks import Format
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -38,4 +38,5 @@ def foldmill_formats() -> Iterable[Format]:
         Format("svg", "SVG drawing of each face and of both", svg.write),
         Format("dxf", "DXF drawing of each face and of both", dxf.write),
         Format("hpgl", "HP-GL programs of each set-up or face", hpgl.write, hpgl.layout),
+        Format("places", "PNG with the places of what planning found", places.write),
     ]

@@ -37,6 +37,8 @@ class Role(StrEnum):
     WITNESS = "witness"
     """mark that tells a flipped sheet from one that was not flipped; scored"""
     SCORE = "score"
+    RELIEF = "relief"
+    """hole at a vertex in which grooves end"""
     CUT_INNER = "cut-inner"
     CUT_OUTER = "cut-outer"
 
@@ -207,6 +209,8 @@ class Plan(_Value):
     """On which face U creases are scored; None where there are none."""
     holes: tuple[Hole, ...]
     ties: tuple[Tie, ...]
+    reliefs: tuple[Hole, ...] = ()
+    """Holes at vertices."""
     passes: tuple[Pass, ...]
     figures: Figures
     findings: tuple[Finding, ...] = ()

@@ -21,6 +21,10 @@ _FACTORS: dict[str, dict[str, float]] = {
     "mm/s2": {"mm/s2": 1.0, "m/s2": 1000.0},
     "s": {"s": 1.0, "ms": 1e-3},
     "steps/mm": {"steps/mm": 1.0, "steps/in": 1 / 25.4},
+    "g/cm3": {"g/cm3": 1.0},
+    "GPa": {"GPa": 1.0, "MPa": 1e-3},
+    "1e-6/K": {"1e-6/K": 1.0},
+    "°C": {"°C": 1.0},
 }
 
 
@@ -33,7 +37,10 @@ def _reader(unit: str) -> Callable[[object], object]:
         number, _, given = value.strip().partition(" ")
         if given not in factors:
             raise ValueError(f'write a number and a unit, such as "1 {unit}"; not {value!r}')
-        return float(number) * factors[given]
+        try:
+            return float(number) * factors[given]
+        except ValueError:
+            raise ValueError(f"{number!r} is no number") from None
 
     return read
 
@@ -52,3 +59,7 @@ MmPerSecond = Annotated[float, *_unit("mm/s")]
 MmPerSecond2 = Annotated[float, *_unit("mm/s2")]
 Seconds = Annotated[float, *_unit("s")]
 StepsPerMm = Annotated[float, *_unit("steps/mm")]
+GramsPerCm3 = Annotated[float, *_unit("g/cm3")]
+Gigapascal = Annotated[float, *_unit("GPa")]
+PerMillionKelvin = Annotated[float, *_unit("1e-6/K")]
+Celsius = Annotated[float, *_unit("°C")]

@@ -1,8 +1,14 @@
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from foldmill import InvalidParameters, Outcome
+from foldmill import InvalidParameters, Outcome, Outcomes
+from foldmill.batch import Column
 from foldmill.configurations import one_by_one, outcomes, with_values
+from foldmill.errors import BrokenBatch
 from foldmill_plugins.six_crease import DESIGN as TUBE
 from foldmill_plugins.tuck import DESIGN as STOOL
 
@@ -32,3 +38,47 @@ def test_whole_numbers_stay_whole_and_a_misspelt_name_is_refused() -> None:
         outcomes(TUBE, CANDLESTICK, {"points.30.y": np.zeros(2)})
     with pytest.raises(InvalidParameters, match="equally long"):
         outcomes(TUBE, CANDLESTICK, {"phi": np.zeros(2), "beta": np.zeros(3)})
+
+
+def true(columns: Mapping[str, Column], **changes: object) -> Outcomes:
+    """Return what becomes of candlesticks, and something else in its stead."""
+    return replace(one_by_one(TUBE, CANDLESTICK, columns), **changes)  # type: ignore[arg-type]
+
+
+PHI = {"phi": np.array([60.0, 70.0, 80.0])}
+NOUGHT = np.zeros(3)
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        (lambda _: None, "it returns NoneType, not Outcomes"),
+        (lambda c: true({"phi": c["phi"][1:]}), r"it returns outcomes of shape \(2,\) for 3 rows"),
+        (lambda c: true(c, codes=np.full(3, 77, np.uint8)), "it gives row 0 the code 77, which is"),
+        (lambda c: true(c, codes=np.full(3, 300)), "its codes must be uint8, not int64"),
+        (lambda c: true(c, at=np.full(3, np.nan)), "its at must be int32, not float64"),
+        (lambda c: true(c, at=np.zeros(2, np.int32)), r"InvalidInput: The column 'at' has shape"),
+        (lambda c: true(c, figures={"phi": NOUGHT}), "it calls a figure 'phi', which is the name"),
+        (lambda c: true(c, figures={"beta": NOUGHT}), "it calls a figure 'beta'"),
+        (lambda c: true(c, figures={"row": NOUGHT}), "it calls a figure 'row'"),
+        (lambda c: true(c, figures={"a_mm": NOUGHT > 0}), "its figure 'a_mm' must be float64, not"),
+    ],
+)
+def test_what_a_batch_must_not_return_is_refused_with_the_name_of_the_family(
+    answer: Callable[[Mapping[str, Column]], Outcomes], said: str
+) -> None:
+    def batch(_: Any, columns: Mapping[str, Column]) -> Outcomes:
+        return answer(columns)
+
+    with pytest.raises(BrokenBatch, match=f"batch of the family 'six-crease' is broken: .*{said}"):
+        outcomes(replace(TUBE, batch=batch), CANDLESTICK, PHI)
+
+
+def test_a_batch_cannot_write_into_its_columns() -> None:
+    def batch(_: Any, columns: Mapping[str, Column]) -> Outcomes:
+        columns["phi"][:] = 0
+        return true(columns)
+
+    with pytest.raises(ValueError, match="read-only"):
+        outcomes(replace(TUBE, batch=batch), CANDLESTICK, PHI)
+    assert PHI["phi"].all()

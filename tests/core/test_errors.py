@@ -18,6 +18,7 @@ from foldmill import errors
         (errors.UnreadableFile, ValueError),
         (errors.UnknownName, LookupError),
         (errors.PluginFault, TypeError),
+        (errors.BrokenBatch, TypeError),
     ],
 )
 def test_both_habits_catch_it(error: type[Exception], builtin: type[Exception]) -> None:
@@ -31,7 +32,7 @@ def test_the_tree_in_the_docstring_names_every_exception() -> None:
         for name, value in vars(errors).items()
         if isinstance(value, type) and issubclass(value, errors.FoldmillError)
     ]
-    assert len(classes) == 9
+    assert len(classes) == 10
     assert [name for name in classes if name not in (errors.__doc__ or "")] == []
 
 

@@ -125,8 +125,8 @@ def test_at_the_longest_first_radius_the_bound_is_that_of_generate() -> None:
     longest = solve.longest(CANDLESTICK)
     near = [np.nextafter(longest, 0), longest, np.nextafter(longest, 99), longest * (1 + 1e-8)]
     found = assert_true(TUBE, CANDLESTICK, {"L": np.array(near)})
-    assert found.codes[-1] == Outcome.REFUSED
-    assert found.codes[1] != Outcome.REFUSED
+    assert (found.codes[-1], found.at[-1]) == (Outcome.NO_CANDIDATE, 2)
+    assert found.at[1] != 2
 
 
 def test_tubes_with_tabs_are_judged_with_their_tabs() -> None:

@@ -142,3 +142,11 @@ def test_a_direction_stated_of_the_innermost_point_waits_unused() -> None:
     turned = DESIGN.run(values)
     assert np.array_equal(space(turned), space(plain))
     assert [handle.name for handle in turned.handles] == [handle.name for handle in plain.handles]
+
+
+def test_a_point_on_the_axis_but_for_rounding_is_on_no_side_of_it() -> None:
+    points = {1: {"a": 42.18949729860357}, 2: {"a": 27.92598854454132}}
+    points[3] = {"a": 64.52105600234265, "branch": -1}
+    told = DESIGN.report("free-phi", DESIGN.validate({"n": 6, "phi": 180, "points": points}))
+    assert told["free_at_phi"]
+    assert told["free_deg"][-1][1] == 180

@@ -8,7 +8,7 @@ that every row gets the answer that generate and check would give.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -44,6 +44,9 @@ class Task:
     """(n, k) numbers that alone decide about the form, where that leaves many rows alike."""
     limits: Limits | None = None
     """The kernels' tolerances where they are not those of every strip."""
+    lost: Indices | None = None
+    """(n,) number i of a point without a place that the family finds before any is solved, else
+    NOWHERE; None where it finds none."""
 
 
 Prepare = Callable[[Rows], Task | None]
@@ -68,7 +71,7 @@ def _batch(design: Design[P], prepare: Prepare, base: P, columns: Mapping[str, C
     left = rows if task is None else rows[_judged(task, rows, out)]
     if len(left):
         _merge(out, left, one_by_one(design, base, _picked(given, left)))
-    return out
+    return replace(out, alone=len(left))
 
 
 def _picked(columns: Mapping[str, Column], rows: Indices) -> dict[str, Column]:
@@ -82,12 +85,13 @@ def _refusals(count: int) -> Outcomes:
 
 def _judged(task: Task, rows: Indices, out: Outcomes) -> Indices:
     """Fill in what the kernels say of the task's rows; return those they leave open."""
-    sure = np.flatnonzero(~task.refused & ~task.unsure)
+    is_left = _solvable(task, rows, out)
+    sure = np.flatnonzero(is_left & ~task.unsure)
     chosen, kind = sure, np.arange(len(sure))
     if task.shape is not None:
         first, kind = alike(task.shape[sure])
         chosen = sure[first]
-    found = judge(task.strips.take(chosen), task.limits)
+    found = judge(task.strips.take(chosen), task.limits, among=len(out))
     codes, at = found.codes[kind], found.at[kind]
     is_open = codes >= CODES.TURNS_FREELY
     out.codes[rows[sure]] = np.where(is_open, Outcome.REFUSED, codes)
@@ -97,9 +101,19 @@ def _judged(task: Task, rows: Indices, out: Outcomes) -> Indices:
     sheet = np.where(np.isnan(extents[:, :1]), np.nan, sheet)
     for name, column in zip(FIGURES, np.hstack([extents, sheet]).T, strict=True):
         out.figures[name][rows[sure]] = column
-    unsure = np.flatnonzero(task.unsure & ~task.refused)
+    unsure = np.flatnonzero(task.unsure & is_left)
     left: Indices = np.sort(np.concatenate([unsure, sure[is_open]]))
     return left
+
+
+def _solvable(task: Task, rows: Indices, out: Outcomes) -> Flags:
+    """Fill in the points that the family itself finds lost; tell which rows of the task go on."""
+    if task.lost is None:
+        return ~task.refused
+    lost = np.flatnonzero(~task.refused & (task.lost != NOWHERE))
+    out.codes[rows[lost]], out.at[rows[lost]] = Outcome.NO_CANDIDATE, task.lost[lost]
+    goes_on: Flags = ~task.refused & (task.lost == NOWHERE)
+    return goes_on
 
 
 def _merge(out: Outcomes, rows: Indices, part: Outcomes) -> None:

@@ -57,8 +57,16 @@ class Strip:
     @property
     def one_sided(self) -> bool:
         """True where no point crosses the axis to the other side."""
-        r = self.meridian[1:, 0]
-        return bool((r >= 0).all() or (r <= 0).all())
+        return on_one_side(self.meridian[1:])
+
+
+def on_one_side(meridian: Floats) -> bool:
+    """Tell whether no radius of points (n, 2) as (r, z) has another sign than the others.
+
+    One that lies on the axis but for rounding has none.
+    """
+    r, size = meridian[:, 0], float(np.abs(meridian).max())
+    return bool((r >= -ON_LINE * size).all() or (r <= ON_LINE * size).all())
 
 
 def solve(
@@ -100,6 +108,8 @@ def solve(
                 raise _crossing_refusal(i, flat, theta)
             if side:
                 (off_line if side > 0 else crossing).append(i)
+            else:
+                meridian[i] = _settled(i, flat, meridian, theta)
     return Strip(order, flat, meridian, tuple(off_line), tuple(crossing))
 
 
@@ -292,6 +302,15 @@ def _side_of_line(i: int, flat: Floats, theta: float) -> int:
         flat[i] = float(flat[i] @ along) * along
         return 0
     return 1 if inside > 0 else -1
+
+
+def _settled(i: int, flat: Floats, meridian: Floats, theta: float) -> Floats:
+    """Return P_i for a p_i that was brought onto its line: the place nearest to where it was."""
+    paper, before = Paper.of(flat, i), (meridian[i - 2], meridian[i - 1])
+    spots = np.array([meet(paper, branch, *before, theta) for branch in (1, -1)])
+    away = np.hypot(*(spots - meridian[i]).T)
+    nearest: Floats = spots[np.nanargmin(away)] if np.isfinite(away).any() else meridian[i]
+    return nearest
 
 
 def _crossing_refusal(i: int, flat: Floats, theta: float) -> ImpossibleGeometry:

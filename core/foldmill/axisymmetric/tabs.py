@@ -8,6 +8,7 @@ it lies upon is narrower; so it never sticks out, and tabs never meet.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -56,9 +57,15 @@ def add(sheet: Sheet, width: float, taper: float) -> Tabs:
     Raises ImpossibleGeometry where a tab does not fit upon the facet across the seam, and
     InvalidParameters for one without a width.
     """
-    joints = _joints(sheet)
+    return add_at(sheet, _joints(sheet), width, taper)
+
+
+def add_at(sheet: Sheet, joints: Sequence[Joint], width: float, taper: float) -> Tabs:
+    """Add a tab at each of some seam edges, whatever seams they are of; as ``add``."""
     rooms = [_room(sheet, joint, taper) for joint in joints]
     _refuse(rooms, width, taper)
+    if not joints:
+        return Tabs(sheet, np.zeros((0, 3), np.intp), np.zeros((0, 3)))
     flat, spatial = [sheet.flat], [sheet.spatial]
     faces: list[tuple[int, int, int]] = []
     edges: list[tuple[int, int]] = []
@@ -129,6 +136,8 @@ def _room(sheet: Sheet, joint: Joint, taper: float) -> _Room:
 def _refuse(rooms: list[_Room], width: float, taper: float) -> None:
     if width <= COINCIDENT_MM:
         raise InvalidParameters(f"A glue tab {width:g} mm wide holds nothing; make it wider.")
+    if not rooms:
+        return
     tightest = min(rooms, key=lambda room: room.widest)
     if tightest.length - width * (tightest.start + tightest.end) <= COINCIDENT_MM:
         raise ImpossibleGeometry(

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from foldmill.axisymmetric.along_arc import in_space
 from foldmill.axisymmetric.rosette import HalfWedge, Rosette, Seat, VertexKey, weld
+from foldmill.axisymmetric.strip import on_one_side
 from foldmill.folded import FoldedForm, fold_pattern
 from foldmill.pattern import CreasePattern
 from foldmill.tolerances import DISH
@@ -52,8 +53,7 @@ def half_wedge(order: int, flat: Floats, meridian: Floats) -> HalfWedge:
     count = len(flat)
     faces = [(k - 2, k - 1, k) if k % 2 == 0 else (k - 2, k, k - 1) for k in range(2, count)]
     seats = tuple(Seat.L1 if k % 2 == 0 else Seat.L2 for k in range(count))
-    r = meridian[:, 0]
-    one_sided = bool((r >= 0).all() or (r <= 0).all())
+    one_sided = on_one_side(meridian)
     spatial = in_space(meridian, np.pi / order)
     return HalfWedge(order, flat, spatial, seats, np.array(faces, np.intp), one_sided)
 

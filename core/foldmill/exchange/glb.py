@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foldmill.design import Fold
 from foldmill.errors import InvalidParameters
+from foldmill.exchange.marking import warning
 from foldmill.exchange.mesh import y_up
 from foldmill.motion import Motion
 
@@ -51,7 +52,10 @@ def write_motion(fold: Fold, motion: Motion, steps: int) -> bytes:
     }
     times = buffers.add((FRAME_S * np.arange(steps + 1))[:, None], "SCALAR")
     weights = buffers.add(np.eye(steps + 1)[:, 1:].reshape(-1, 1), "SCALAR")
-    return _container(_document(motion, primitive, (times, weights), buffers), bytes(buffers.bytes))
+    document = _document(motion, primitive, (times, weights), buffers)
+    if warning(fold):
+        document["asset"]["extras"] = {"warning": warning(fold)}
+    return _container(document, bytes(buffers.bytes))
 
 
 class _Buffers:

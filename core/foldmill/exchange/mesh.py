@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from foldmill.design import Fold
 from foldmill.errors import InvalidInput, UnknownName
+from foldmill.exchange.marking import warning
 from foldmill.pattern import Floats
 
 MESH_SUFFIXES = (".glb", ".obj", ".stl")
@@ -32,10 +34,12 @@ def write_mesh(fold: Fold, suffix: str) -> bytes:
     if suffix == ".glb":
         mesh = _mesh(y_up(vertices), fold)
         mesh.visual = _both_faces_visible()
-        return bytes(mesh.export(file_type="glb"))
+        said = {"extras": {"warning": warning(fold)}} if warning(fold) else {}
+        return bytes(mesh.export(file_type="glb", tree_postprocessor=_telling(said)))
     if suffix == ".stl":
-        return bytes(_mesh(vertices, fold).export(file_type="stl"))
-    header = "foldmill: millimetres, z up"
+        stl = bytes(_mesh(vertices, fold).export(file_type="stl"))
+        return _stl_header(fold) + stl[80:]
+    header = "\n".join(["foldmill: millimetres, z up", *filter(None, [warning(fold)])])
     text: str = _mesh(vertices, fold).export(file_type="obj", header=header)
     return (text.rstrip("\n") + "\n").encode()
 
@@ -44,6 +48,20 @@ def y_up(vertices: Floats) -> Floats:
     """Turn (x, y, z up) in mm into glTF's (x, y up, z towards the viewer) in metres."""
     x, y, z = vertices.T
     return np.column_stack([x, z, -y]) * _METRES + 0.0
+
+
+def _telling(said: dict[str, Any]) -> Callable[[dict[str, Any]], None]:
+    """Return what adds words to the asset of a glTF document."""
+
+    def tell(tree: dict[str, Any]) -> None:
+        tree["asset"].update(said)
+
+    return tell
+
+
+def _stl_header(fold: Fold) -> bytes:
+    """Return the 80 bytes before a binary STL's triangles; they must not begin with "solid"."""
+    return warning(fold).encode("ascii", "replace")[:80].ljust(80, b"\0")
 
 
 def _mesh(vertices: Floats, fold: Fold) -> Any:

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.check.intersection import cut_lengths
-from foldmill.kernels.strips import inside
 from foldmill.kernels.tables import CODES, stretch
 
 Floats = NDArray[np.float64]
@@ -144,6 +143,10 @@ def _sliding(points: Floats, normals: Floats, heights: Floats, limit: float) -> 
     passes &= (np.minimum(left, right) < -limit) & (np.maximum(left, right) > limit)
     faces, creases = np.arange(passes.shape[1])[:, None], np.arange(passes.shape[2])
     passes &= (faces != creases) & (faces != creases + 1)
+    if not passes.any():
+        return []
+    from foldmill.kernels.strips import inside  # loads numba, where it is
+
     found = []
     for row, f, e in zip(*np.nonzero(passes), strict=True):
         x, y, z = points[row].T

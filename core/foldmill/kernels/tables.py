@@ -141,10 +141,19 @@ def stretch(spots: Floats, spin: Floats) -> Floats:
     return np.stack(np.broadcast_arrays(*sides), axis=1)
 
 
-def judge(strips: Strips, limits: Limits | None = None) -> Verdicts:
-    """Solve strips and test their half wedges: compiled where numba is, over columns elsewhere."""
+COMPILED_FROM = 200_000
+"""Configurations. Fewer are judged over columns before numba is loaded, which takes 0.6 s."""
+
+
+def judge(strips: Strips, limits: Limits | None = None, among: int = 0) -> Verdicts:
+    """Solve strips and test their half wedges: compiled where numba is and it is worth loading.
+
+    Elsewhere over columns. Which of the two depends on the numbers alone, never on what was loaded
+    before, so that the same call gives the same bytes. among : configurations from which these
+    strips are left, where that are more.
+    """
     loop: Any
-    if is_compiling():
+    if max(len(strips), among) >= COMPILED_FROM and is_compiling():
         from foldmill.kernels.strips import judge as loop
     else:
         from foldmill.kernels.columns import judge as loop

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from foldmill_fabricate.cli.output import AsJson, figure_lines, say, table
+from foldmill_fabricate.cli.output import AsJson, say, table
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.machines import Machine
+    from foldmill_fabricate.materials import Material
+    from foldmill_fabricate.presets import Sourced
 
 
 def add_to(app: typer.Typer) -> None:
@@ -57,29 +62,61 @@ def plugins(as_json: AsJson = False) -> None:
         raise typer.Exit(1)
 
 
+LONG = 60
+"""Letters from which on a value stands below the table."""
 Show = Annotated[str | None, typer.Option("--show", help="Show every field of one of them.")]
 
 
 def materials(show: Show = None, as_json: AsJson = False) -> None:
     """List the sheet materials."""
-    _presets("foldmill_materials", "material", show, as_json)
+    from foldmill_fabricate.materials import Material
+
+    _presets(Material, show, as_json)
 
 
 def machines(show: Show = None, as_json: AsJson = False) -> None:
     """List the machines."""
-    _presets("foldmill_machines", "machine", show, as_json)
+    from foldmill_fabricate.machines import Machine
+
+    _presets(Machine, show, as_json)
 
 
-def _presets(hook: str, kind: str, show: str | None, as_json: bool) -> None:
-    from foldmill import installed
-    from foldmill_fabricate.cli.parameters import rows
+def _presets(model: type[Material] | type[Machine], show: str | None, as_json: bool) -> None:
+    from foldmill_fabricate import shelf
+    from foldmill_fabricate.machines import Machine
+    from foldmill_fabricate.materials import Material
 
-    registry = installed()
-    if show is None:
-        found = [(slug, value.title, value.provenance) for slug, value in registry.of(hook).items()]
-        data = [dict(zip(("slug", "title", "provenance"), row, strict=True)) for row in found]
-        say(as_json, data, table([row[:2] for row in found]))
+    if show is not None:
+        found = shelf.material(show) if model is Material else shelf.machine(show)
+        say(as_json, found.model_dump(mode="json"), described(found))
         return
-    value = registry.get(hook, kind, show)
-    fields = {row.name: f"{row.value} {row.unit}".strip() for row in rows(value)}
-    say(as_json, value.model_dump(mode="json"), figure_lines(fields))
+    every = shelf.everything(Material) if model is Material else shelf.everything(Machine)
+    rows = [
+        {
+            "slug": slug,
+            "title": value.title,
+            "provenance": value.provenance,
+            "owner": every.owners[slug],
+        }
+        for slug, value in every.presets.items()
+    ]
+    lines = [("SLUG", "TITLE", "OWNER")]
+    lines += [(row["slug"], row["title"], row["owner"]) for row in rows]
+    say(as_json, rows, "\n".join([table(lines), *every.broken]))
+    if every.broken:
+        raise typer.Exit(1)
+
+
+def described(preset: Sourced) -> str:
+    """Return every field of a preset with its unit and where its value comes from."""
+    from foldmill_fabricate.presets import rows, shown
+
+    told = [(row, f"{shown(row.value)} {row.unit}".strip()) for row in rows(preset)]
+    lines = [("FIELD", "VALUE", "SOURCE")]
+    lines += [
+        (row.name, value, preset.sources.get(row.name, ""))
+        for row, value in told
+        if len(value) <= LONG
+    ]
+    texts = [f"{row.name}: {value}" for row, value in told if len(value) > LONG]
+    return "\n".join([table(lines), *texts])

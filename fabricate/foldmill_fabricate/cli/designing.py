@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from foldmill import Design, Fold, FoldmillError
-from foldmill.finding import Finding, Severity, has_errors
+from foldmill.exchange.marking import marked
+from foldmill.finding import has_errors
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -90,25 +90,33 @@ def report(
     name: Annotated[str, typer.Argument(help="Which report; a wrong one tells those there are.")],
     preset: Annotated[str | None, typer.Option(help="Start from a preset.")] = None,
     params: Annotated[Path | None, typer.Option(help="Parameters from a TOML file.")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Its columns: FILE.csv, or drawn as .png or .svg."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Make one of a family's longer analyses: foldmill report FAMILY NAME [--PARAM V]…"""
     from foldmill import installed
     from foldmill_fabricate.cli.parameters import gather
 
+    if output is not None and output.suffix not in {".csv", ".png", ".svg"}:
+        raise FoldmillError(f"{output}: the columns of a report are written as .csv .png or .svg.")
     offered = installed().design(family)
     figures = offered.report(name, gather(offered, preset, params, context.args))
+    if output is not None:
+        _save_columns(f"{offered.title}: {name}", figures, output)
     say(as_json, dict(figures), report_text(figures))
 
 
-def marked(fold: Fold, found: Sequence[Finding]) -> Fold:
-    """Put the codes of its errors into the fold, so that the file says what it is."""
-    codes = sorted({finding.code for finding in found if finding.severity is Severity.ERROR})
-    if not codes:
-        return fold
-    kept = dict(fold.meta.get("fold", {}))
-    kept["frame"] = {**kept.get("frame", {}), "foldmill:errors": codes}
-    return replace(fold, meta={**fold.meta, "fold": kept})
+def _save_columns(title: str, figures: Mapping[str, object], file: Path) -> None:
+    from foldmill_fabricate.files import write_whole
+    from foldmill_fabricate.pictures.columns import columns_csv, columns_of, columns_picture
+
+    columns = columns_of(figures)
+    is_table = file.suffix == ".csv"
+    made = columns_csv(columns) if is_table else columns_picture(title, columns, file.suffix)
+    write_whole(file, made)
 
 
 def show(

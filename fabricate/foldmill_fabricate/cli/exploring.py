@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from foldmill.exchange.marking import marked
 from foldmill.finding import has_errors
-from foldmill_fabricate.cli.designing import marked, save
+from foldmill_fabricate.cli.designing import save
 from foldmill_fabricate.cli.output import AsJson, finding_lines, say, table
 from foldmill_fabricate.cli.progress import SweepProgress
 from foldmill_fabricate.errors import CannotExplore
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 SHOWN_REGIONS = 8
 DEFAULT_AT_MOST = 1_000_000
 """That of the package explore; it is not imported for the sake of --help."""
+BROKEN_OFF = 130
+"""The exit code that shells know for Ctrl-C."""
 PICKED = (".fold", ".svg", ".png", ".glb", ".stl", ".obj")
 
 
@@ -70,20 +73,32 @@ def explore(
     from foldmill_fabricate.cli.parameters import gather
     from foldmill_fabricate.explore import Range, summary
     from foldmill_fabricate.explore import explore as run
+    from foldmill_fabricate.explore.grid import grid
 
     picks = [_pick(text) for text in pick or []]
-    _require_files(output, picture, picks)
+    _require_files(output, picture, picks, resume)
+    shown = _thumbnails(thumbnail or [], picture)
     offered = installed().design(family)
-    base = gather(offered, preset, params, context.args)
     ranges = [Range.read(text) for text in vary or []]
+    _refuse_stated([each.name for each in ranges], context.args)
+    base = gather(offered, preset, params, context.args)
+    rows = len(grid(offered, base, ranges, at_most))
+    for which in (*shown, *(each.which for each in picks)):
+        which.require(rows)
     engine = _engine(jobs, scheduler)
-    with SweepProgress(_place(engine)) as told:
-        sweep = run(offered, base, ranges, engine, at_most=at_most, resume=resume, progress=told)
+    try:
+        with SweepProgress(_place(engine)) as told:
+            sweep = run(
+                offered, base, ranges, engine, at_most=at_most, resume=resume, progress=told
+            )
+    except KeyboardInterrupt as stop:
+        typer.echo(str(stop) or "Broken off.", err=True)
+        raise typer.Exit(BROKEN_OFF) from None
     if output:
         _write_table(sweep, output)
     say(as_json, summary(sweep), _text(sweep))
     if picture:
-        _write_picture(sweep, picture, thumbnail or [])
+        _write_picture(sweep, picture, shown)
     refused = [said for each in picks if (said := _write_pick(sweep, each, force))]
     for said in [*refused, *_fault_lines(sweep)]:
         typer.echo(said, err=True)
@@ -91,10 +106,40 @@ def explore(
         raise typer.Exit(1)
 
 
+class Which(NamedTuple):
+    """A row by its number, or by that of the region whose centre it is."""
+
+    number: int
+    is_region: bool
+
+    @classmethod
+    def read(cls, text: str) -> Which:
+        """Read ROW or regionK; raises CannotExplore."""
+        number = text.removeprefix("region")
+        if not (number.isascii() and number.isdigit()):
+            raise CannotExplore(f"{text!r} is neither a row's number nor regionK.")
+        return cls(int(number), text != number)
+
+    def require(self, rows: int) -> None:
+        """Raise CannotExplore for a row that a sweep of so many rows cannot have."""
+        if not self.is_region and self.number >= rows:
+            raise CannotExplore(f"There is no row {self.number}: the rows are 0 to {rows - 1}.")
+
+    def row(self, sweep: Sweep[Any]) -> int:
+        """Return the row; raises CannotExplore where there is no such region."""
+        if not self.is_region:
+            return self.number
+        if not 1 <= self.number <= len(sweep.regions):
+            raise CannotExplore(
+                f"There is no region{self.number}: the free regions are {len(sweep.regions)}."
+            )
+        return sweep.regions[self.number - 1].centre
+
+
 class Pick(NamedTuple):
     """A row to be written."""
 
-    which: str
+    which: Which
     file: Path
 
 
@@ -102,13 +147,33 @@ def _pick(text: str) -> Pick:
     which, colon, file = text.partition(":")
     if not (which and colon and file):
         raise CannotExplore(f"--pick {text}: write ROW:FILE.fold or regionK:FILE.fold.")
-    return Pick(which, Path(file))
+    return Pick(Which.read(which), Path(file))
 
 
-def _require_files(output: Path | None, picture: Path | None, picks: Sequence[Pick]) -> None:
-    """Refuse files of no known kind before anything is computed."""
+def _thumbnails(texts: Sequence[str], picture: Path | None) -> list[Which]:
+    if texts and picture is None:
+        raise CannotExplore("--thumbnail shows a form beside the map: name it, --picture FILE.png.")
+    return [Which.read(text) for text in texts]
+
+
+def _refuse_stated(varied: Sequence[str], options: Sequence[str]) -> None:
+    """Refuse a parameter that is both stated and varied: it cannot be both."""
+    from foldmill_fabricate.cli.parameters import pairs
+
+    for name, value in pairs(options):
+        if name in varied:
+            raise CannotExplore(
+                f"--{name} {value} and --vary {name}=… contradict each other; leave one out."
+            )
+
+
+def _require_files(
+    output: Path | None, picture: Path | None, picks: Sequence[Pick], resume: Path | None
+) -> None:
+    """Refuse files of no known kind, or without a place, before anything is computed."""
     from foldmill_fabricate.explore.picture import require_picture
     from foldmill_fabricate.explore.table import require_writable
+    from foldmill_fabricate.files import require_place
 
     if output:
         require_writable(output)
@@ -117,6 +182,10 @@ def _require_files(output: Path | None, picture: Path | None, picks: Sequence[Pi
     for pick in picks:
         if pick.file.suffix.lower() not in PICKED:
             raise CannotExplore(f"{pick.file}: a pick is written as {' '.join(PICKED)}.")
+    kept = resume and resume / "kept"
+    for file in (output, picture, kept, *(pick.file for pick in picks)):
+        if file:
+            require_place(file)
 
 
 def _engine(jobs: int | None, scheduler: str | None) -> Engine | None:
@@ -139,19 +208,6 @@ def _place(engine: Engine | None) -> str:
     return "in one process" if engine.jobs == 1 else f"in {engine.jobs} processes"
 
 
-def _row(sweep: Sweep[Any], which: str) -> int:
-    """Return the row of a number, or of the centre of a region; raises CannotExplore."""
-    if which.isascii() and which.isdigit():
-        sweep.grid.values(int(which))
-        return int(which)
-    number = which.removeprefix("region")
-    if not (which.startswith("region") and number.isascii() and number.isdigit()):
-        raise CannotExplore(f"{which!r} is neither a row's number nor regionK.")
-    if not 1 <= int(number) <= len(sweep.regions):
-        raise CannotExplore(f"There is no {which}: the free regions are {len(sweep.regions)}.")
-    return sweep.regions[int(number) - 1].centre
-
-
 def _write_table(sweep: Sweep[Any], file: Path) -> None:
     from foldmill_fabricate.explore.table import table as written
     from foldmill_fabricate.files import write_whole
@@ -160,11 +216,11 @@ def _write_table(sweep: Sweep[Any], file: Path) -> None:
     typer.echo(f"{file}", err=True)
 
 
-def _write_picture(sweep: Sweep[Any], file: Path, thumbnails: Sequence[str]) -> None:
+def _write_picture(sweep: Sweep[Any], file: Path, thumbnails: Sequence[Which]) -> None:
     from foldmill_fabricate.explore.picture import sweep_picture
     from foldmill_fabricate.files import write_whole
 
-    rows = [_row(sweep, which) for which in thumbnails]
+    rows = [which.row(sweep) for which in thumbnails]
     write_whole(file, sweep_picture(sweep, file.suffix.lower(), rows))
     typer.echo(f"{file}", err=True)
 
@@ -173,7 +229,7 @@ def _write_pick(sweep: Sweep[Any], pick: Pick, force: bool) -> str:
     """Write a pick; return why not, where it does not fold and is not forced."""
     from foldmill.check import check
 
-    row = _row(sweep, pick.which)
+    row = pick.which.row(sweep)
     fold = sweep.fold(row)
     found = check(fold).findings
     if has_errors(found) and not force:

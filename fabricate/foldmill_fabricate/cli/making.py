@@ -42,6 +42,27 @@ class UnassignedChoice(StrEnum):
     SKIP = "skip"
 
 
+class ReliefChoice(StrEnum):
+    """Which vertices get a hole."""
+
+    NONE = "none"
+    NEEDED = "needed"
+    ALL = "all"
+
+
+class ProcessChoice(StrEnum):
+    """How a line is made."""
+
+    HALF_CUT = "half-cut"
+    CREASE_WHEEL = "crease-wheel"
+    STYLUS = "stylus"
+    PERFORATION = "perforation"
+    V_SCORE = "v-score"
+    THROUGH_CUT = "through-cut"
+    SCORE_AND_SNAP = "score-and-snap"
+    PEN = "pen"
+
+
 Folder = Annotated[Path, typer.Argument(help="A job folder, as `foldmill plan` writes it.")]
 
 
@@ -70,18 +91,30 @@ def plan(
     unassigned: Annotated[
         UnassignedChoice | None, typer.Option(help="Where unassigned creases are scored.")
     ] = None,
-    to: Annotated[str, typer.Option(help="Formats, separated by commas.")] = "svg,dxf,hpgl",
+    score: Annotated[
+        ProcessChoice | None,
+        typer.Option(help="How creases are made; default: the first the machine can do."),
+    ] = None,
+    outline: Annotated[
+        ProcessChoice | None,
+        typer.Option(help="How the outline is made; default: the first the machine can do."),
+    ] = None,
+    relief: Annotated[
+        ReliefChoice, typer.Option(help="Which vertices get a hole in which grooves end.")
+    ] = ReliefChoice.NONE,
+    to: Annotated[
+        str | None,
+        typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
     from foldmill_fabricate import folder
     from foldmill_fabricate.plan import make
 
-    formats = [name.strip() for name in to.split(",") if name.strip()]
-    if not formats:
-        raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")
-    fold = load(file)
     chosen_material, chosen_machine = presets(material, machine)
+    formats = _formats(to, chosen_machine)
+    fold = load(file)
     made = make(
         fold,
         chosen_material,
@@ -90,6 +123,9 @@ def plan(
         carrier=None if carrier is None else size(carrier, "--carrier"),
         flip=flip.value,
         unassigned=None if unassigned is None else unassigned.value,
+        score=None if score is None else score.value,
+        cut=None if outline is None else outline.value,
+        relief=relief.value,
     )
     written = folder.write(fold, made, output, formats)
     programs = (
@@ -97,6 +133,15 @@ def plan(
     )
     say(as_json, written.model_dump(mode="json"), describe(written) + programs)
     exit_code(written.findings)
+
+
+def _formats(to: str | None, machine: Machine) -> list[str]:
+    if to is None:
+        return ["svg", "dxf", "hpgl"] if machine.language == "hpgl" else ["svg", "dxf"]
+    formats = [name.strip() for name in to.split(",") if name.strip()]
+    if not formats:
+        raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")
+    return formats
 
 
 def verify(
@@ -129,13 +174,9 @@ def verify(
 
 def presets(material: str, machine: str) -> tuple[Material, Machine]:
     """Return material and machine by slug; raises UnknownName."""
-    from foldmill import installed
+    from foldmill_fabricate import shelf
 
-    registry = installed()
-    return (
-        registry.get("foldmill_materials", "material", material),
-        registry.get("foldmill_machines", "machine", machine),
-    )
+    return shelf.material(material), shelf.machine(machine)
 
 
 def size(text: str, option: str) -> tuple[float, float]:

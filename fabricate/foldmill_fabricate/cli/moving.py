@@ -8,9 +8,11 @@ from typing import Annotated
 import typer
 
 from foldmill import Fold, FoldmillError, UnknownName
+from foldmill.exchange.marking import marked
+from foldmill.finding import Severity
 from foldmill.motion import Motion
 from foldmill_fabricate.cli.designing import load
-from foldmill_fabricate.cli.output import AsJson, say
+from foldmill_fabricate.cli.output import AsJson, finding_lines, say
 
 MOST_STEPS = 1000
 
@@ -43,6 +45,9 @@ def motion(
         int | None,
         typer.Option(help="Write the dihedral angles at this vertex of the pattern instead."),
     ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Write it even where it does not fold; it is marked.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Write how a form moves: foldmill motion FAMILY [--PARAM V]… --steps N -o FILE."""
@@ -51,7 +56,7 @@ def motion(
 
     if not 1 <= steps <= MOST_STEPS:
         raise FoldmillError(f"--steps must be from 1 to {MOST_STEPS}, not {steps}.")
-    fold = _fold(source, preset, params, context.args)
+    fold = _marked(_fold(source, preset, params, context.args), force)
     moving = _motion(fold, name)
     if dihedral is not None:
         _angles(fold, moving, dihedral, steps, output, as_json)
@@ -72,6 +77,18 @@ def motion(
         else f" Facets {seen.faces} pass through each other from t = {seen.free_until:.4f} on."
     )
     say(as_json, data, f"{output}: {moving.title}, {steps} steps.{stops}{free}")
+
+
+def _marked(fold: Fold, force: bool) -> Fold:
+    """Refuse a form that does not fold, unless it is wanted all the same; then it is marked."""
+    from foldmill.check import check
+
+    found = [each for each in check(fold).findings if each.severity is Severity.ERROR]
+    if found and not force:
+        typer.echo(finding_lines(found))
+        typer.echo("It does not fold, so nothing is written; --force writes it, marked.", err=True)
+        raise typer.Exit(1)
+    return marked(fold, found)
 
 
 def _angles(fold: Fold, moving: Motion, vertex: int, steps: int, file: Path, as_json: bool) -> None:

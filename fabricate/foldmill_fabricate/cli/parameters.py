@@ -68,15 +68,16 @@ def _renumber(model: type[Params], values: dict[str, Any], edit: str, place: str
 def _start_anew(values: dict[str, Any], pairs: Sequence[tuple[list[str], Any]]) -> None:
     """Empty each object that an option gives a value it does not have: it becomes another kind.
 
-    So ``--points.5.r 100 --points.5.z -140`` makes a point on its line a free one.
+    So ``--points.5.r 100 --points.5.z -140`` makes a point on its line a free one; and so does
+    another ``kind``, where an object has one.
     """
     for path in {tuple(path[:-1]) for path, _ in pairs if len(path) > 1}:
         held = _at(values, path)
-        given = {own[-1] for own, _ in pairs if tuple(own[:-1]) == path}
+        given = {own[-1]: value for own, value in pairs if tuple(own[:-1]) == path}
         if (
             isinstance(held, dict)
             and all(isinstance(key, str) for key in held)
-            and given - set(held)
+            and (set(given) - set(held) or given.get("kind", held.get("kind")) != held.get("kind"))
         ):
             held.clear()
 

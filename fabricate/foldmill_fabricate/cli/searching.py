@@ -75,7 +75,7 @@ def search(
     from foldmill_fabricate.explore.search import Request, contents, report
     from foldmill_fabricate.explore.search import search as look
     from foldmill_fabricate.explore.search.request import EVALUATIONS
-    from foldmill_fabricate.files import write_all
+    from foldmill_fabricate.files import require_place, write_all
 
     offered = installed().design(family)
     if jobs == 0 or jobs < -1:
@@ -95,6 +95,8 @@ def search(
         results=results,
         evaluations=EVALUATIONS if evaluations is None else evaluations,
     )
+    if output is not None:
+        require_place(output / "results.csv")
     with telling() as tell:
         outcome = look(offered, request, jobs=jobs, seconds=seconds, tell=tell)
     if output is not None and outcome.results:
@@ -126,11 +128,10 @@ def _targets(
 
 def _limits(material: str, sheet: str | None, least: float | None) -> tuple[Room, float]:
     """Return the sheet there is, and the shortest crease."""
-    from foldmill import installed
+    from foldmill_fabricate import shelf
     from foldmill_fabricate.explore.search.fit import Room
-    from foldmill_fabricate.hooks import MATERIALS
 
-    chosen = installed().get(MATERIALS, "material", material)
+    chosen = shelf.material(material)
     stock = (chosen.stock_width, chosen.stock_height)
     width, height = stock if sheet is None else _size(sheet)
     return Room(

@@ -1,13 +1,14 @@
 """A run of consecutive rows: the piece of a sweep that is computed in one place at one time.
 
-How a sweep is cut depends on nothing but its number of rows, so a chunk's number says which rows it
-holds, whoever computes it.
+How a sweep is cut depends on nothing but its family and its rows, so a chunk's number says which
+rows it holds, whoever computes it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from foldmill import Design, Params
 from foldmill.batch import NOWHERE, Column, Outcomes
 from foldmill.configurations import outcomes
-from foldmill.errors import InvalidInput, one_line
+from foldmill.errors import BrokenBatch, InvalidInput, one_line
 from foldmill_fabricate.explore.grid import Grid
 
 FAULT = 255
@@ -28,6 +29,8 @@ ROWS, MOST_ROWS = 16, 256
 WANTED_CHUNKS = 1000
 SHORT_CHUNKS = 8
 """Of a batch: about a second's work, and processes take more than that to start."""
+SAMPLE = 16
+"""Rows at which a batch shows whether it computes together what it is asked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,12 +56,26 @@ class Task:
     base: Params
     grid: Grid
 
-    @property
+    @cached_property
     def chunk_rows(self) -> int:
-        """How many rows a chunk has."""
-        if self.design.batch is not None:
-            return BATCH_ROWS
-        return min(max(-(-len(self.grid) // WANTED_CHUNKS), ROWS), MOST_ROWS)
+        """How many rows a chunk has: about as many are generated and checked in each, or fewer."""
+        rows = min(max(-(-len(self.grid) // WANTED_CHUNKS), ROWS), MOST_ROWS)
+        return min(int(rows / self._share_alone), BATCH_ROWS) if self._share_alone else BATCH_ROWS
+
+    @cached_property
+    def _share_alone(self) -> float:
+        """The share of the rows that are generated and checked one by one, in a seeded sample.
+
+        A batch may leave rows to that, of some parameters all.
+        """
+        if self.design.batch is None or len(self.grid) <= SAMPLE:
+            return 1.0
+        rows = np.random.default_rng(0).integers(0, len(self.grid), SAMPLE)
+        try:
+            found = outcomes(self.design, self.base, self.grid.columns(rows))
+        except Exception:
+            return 1.0  # where it breaks down is found when all rows are computed
+        return found.alone / SAMPLE
 
     @property
     def chunks(self) -> int:
@@ -68,7 +85,7 @@ class Task:
     @property
     def is_short(self) -> bool:
         """Whether it is done before other processes would have started."""
-        return self.chunks == 1 or (self.design.batch is not None and self.chunks <= SHORT_CHUNKS)
+        return self.chunks == 1 or (not self._share_alone and self.chunks <= SHORT_CHUNKS)
 
     def rows(self, number: int) -> NDArray[np.intp]:
         """Return the rows of a chunk."""
@@ -79,7 +96,8 @@ class Task:
 def compute(task: Task, number: int) -> Chunk:
     """Return what becomes of the rows of a chunk; a row that breaks the family is told, not raised.
 
-    Raises InvalidInput where no row can be computed: a parameter that the family does not know.
+    Raises InvalidInput or BrokenBatch where no row can be computed: a parameter that the family
+    does not know, a batch whose answers mean nothing.
     """
     rows = task.rows(number)
     faults: dict[int, str] = {}
@@ -105,7 +123,7 @@ def _computed(task: Task, rows: NDArray[np.intp], faults: dict[int, str]) -> lis
     """Compute rows together; where that breaks, halve them until the rows at fault are found."""
     try:
         return [outcomes(task.design, task.base, task.grid.columns(rows))]
-    except InvalidInput:
+    except (InvalidInput, BrokenBatch):
         raise
     except Exception as error:
         if len(rows) == 1:

@@ -6,7 +6,8 @@ joblib is the only way in; what a sweep gives does not depend on the engine.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+import warnings
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -54,7 +55,7 @@ Engine = Local | Cluster
 
 def run(
     engine: Engine, work: Callable[[int], R], numbers: Iterable[int], packages: Iterable[str]
-) -> Iterator[R]:
+) -> Generator[R, None, None]:
     """Yield the results of the work on each number, in whatever order they are done.
 
     packages : what workers of a cluster must be able to import. Raises EngineFailed where workers
@@ -81,7 +82,20 @@ def _parallel(
     one_thread = {"inner_max_num_threads": 1} if backend == "loky" and n_jobs != 1 else {}
     with joblib.parallel_config(backend=backend, n_jobs=n_jobs, **one_thread):
         together = joblib.Parallel(return_as="generator_unordered", batch_size=1)
-        yield from together(joblib.delayed(work)(number) for number in numbers)
+        with _closed(together(joblib.delayed(work)(number) for number in numbers)) as results:
+            for result in results:  # noqa: UP028 - "yield from" would close them without _closed
+                yield result
+
+
+@contextmanager
+def _closed(results: Any) -> Iterator[Any]:
+    """Close results that nobody takes any more; joblib warns of them as of a waste."""
+    try:
+        yield results
+    finally:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            results.close()
 
 
 @contextmanager

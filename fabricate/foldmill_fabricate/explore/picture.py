@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -18,6 +19,7 @@ from foldmill.batch import Outcome
 from foldmill_fabricate.errors import CannotExplore
 from foldmill_fabricate.explore.chunk import FAULT
 from foldmill_fabricate.explore.grid import Axis
+from foldmill_fabricate.explore.stated import stated
 from foldmill_fabricate.explore.sweep import Sweep
 from foldmill_fabricate.explore.view import View, thumbnails, view
 from foldmill_fabricate.pictures import canvas
@@ -25,11 +27,16 @@ from foldmill_fabricate.pictures.folded import draw as draw_form
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis as Side
     from matplotlib.figure import Figure
 
 SUFFIXES = (".png", ".svg")
+LINE = 110
+"""Letters in a line of the title."""
 ABOVE_LINES = 5
 """In the order of drawing."""
+MOST_TICKS = 12
+"""At counts and choices."""
 PIXELS = 280
 """Of a form beside the map."""
 Box = tuple[float, float, float, float]
@@ -179,10 +186,20 @@ def _frame(drawn: Figure, seen: View, box: Box) -> Axes:
         axes.set_ylabel(upward.label, fontsize=11)
     else:
         axes.set_yticks([])
+    _tick(axes.xaxis, across)
+    if not seen.is_strip:
+        _tick(axes.yaxis, upward)
     axes.tick_params(labelsize=9)
     for text in (*axes.get_yticklabels(), axes.yaxis.label):
         text.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1.5})
     return axes
+
+
+def _tick(side: Side, axis: Axis) -> None:
+    """Put ticks at values of a count or a choice, where the usual ones may fall between them."""
+    if axis.is_whole:
+        step = -(-len(axis.values) // MOST_TICKS)
+        side.set_ticks(axis.values[::step], labels=[f"{value:g}" for value in axis.values[::step]])
 
 
 def _edges(axis: Axis) -> NDArray[np.float64]:
@@ -270,5 +287,9 @@ def _title(drawn: Figure, seen: View) -> None:
     sweep = seen.sweep
     cells = f"{seen.rows.size:,} configurations"
     where = f"{cells} of {len(sweep):,}, those with {seen.fixed}" if seen.fixed else cells
-    is_strip = seen.is_strip
-    drawn.suptitle(f"{sweep.design.title}\n{where}", fontsize=12, y=0.98 if is_strip else 0.975)
+    head = "\n".join(
+        line
+        for words in (f"{sweep.design.title}: {stated(sweep)}", where)
+        for line in wrap(words, LINE)
+    )
+    drawn.suptitle(head, fontsize=12, y=0.98 if seen.is_strip else 0.975)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,7 +22,7 @@ from foldmill_fabricate.explore.engine import Engine, Local
 from foldmill_fabricate.explore.grid import AT_MOST, Grid, grid
 from foldmill_fabricate.explore.ranges import Range
 from foldmill_fabricate.explore.regions import FULL_TURN, Region, closes, regions
-from foldmill_fabricate.explore.store import Store
+from foldmill_fabricate.explore.store import Store, compute_and_keep, modules
 
 P = TypeVar("P", bound=Params)
 Progress = Callable[[int, int], None]
@@ -92,7 +93,7 @@ def explore(
     one where that is sooner; at_most : rows; resume : a folder that keeps finished chunks, and
     gives back those it has. The result does not depend on the engine.
 
-    Raises CannotExplore, InvalidParameters, EngineFailed.
+    Raises CannotExplore, InvalidParameters, EngineFailed; KeyboardInterrupt says what is kept.
     """
     task = Task(design, base, grid(design, base, ranges, at_most))
     engine = engine or Local(1 if task.is_short else -1)
@@ -120,43 +121,53 @@ def _chunks(task: Task, engine: Engine, store: Store | None, progress: Progress)
     progress(rows, len(task.grid))
     missing = [number for number in range(task.chunks) if number not in done]
     try:
-        work = partial(compute, task)
-        for chunk in engines.run(engine, work, missing, packages(task.design)) if missing else ():
+        for chunk in _computed(task, engine, store, missing):
             done[chunk.number] = chunk
-            if store:
-                store.save(chunk)
             rows += len(chunk.codes)
             progress(rows, len(task.grid))
     except EngineFailed as error:
-        raise _broken_off(error, task, done, store) from error
+        raise EngineFailed(_broken_off(str(error), task, done, store)) from error
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(_broken_off("Broken off.", task, done, store)) from None
     return [done[number] for number in range(task.chunks)]
 
 
+def _computed(
+    task: Task, engine: Engine, store: Store | None, missing: list[int]
+) -> Iterator[Chunk]:
+    """Yield the missing chunks as they are done, kept in the store."""
+    if not missing:
+        return
+    work, is_near = partial(compute, task), isinstance(engine, Local)
+    if store and is_near:
+        work = partial(compute_and_keep, task, store)
+    with closing(engines.run(engine, work, missing, packages(task.design))) as results:
+        for chunk in results:
+            if store and not is_near:
+                store.save(chunk)
+            yield chunk
+
+
 def packages(design: Design[Any]) -> tuple[str, ...]:
-    """Return the packages that a worker needs for a family, other than numpy.
-
-    What is made inside a function or a notebook travels whole and needs none.
-    """
-    own = [each for each in (design.generate, design.params) if "<locals>" not in each.__qualname__]
-    tops = {each.__module__.partition(".")[0] for each in own} - {"__main__"}
-    return ("foldmill", "foldmill_fabricate", *sorted(tops))
+    """Return the packages that a worker needs for a family, other than numpy."""
+    return ("foldmill", "foldmill_fabricate", *modules(design))
 
 
-def _broken_off(
-    error: EngineFailed, task: Task, done: dict[int, Chunk], store: Store | None
-) -> EngineFailed:
-    if not done:
-        return error
-    first = min(number for number in range(task.chunks) if number not in done)
-    place = task.grid.told(int(task.rows(first)[0]))
+def _broken_off(said: str, task: Task, done: Container[int], store: Store | None) -> str:
+    """Add to what is said how much is done, and where it is kept."""
+    found = done if store is None else store
+    left = [number for number in range(task.chunks) if number not in found]
+    if not left or len(left) == task.chunks:
+        return said
+    place = task.grid.told(int(task.rows(left[0])[0]))
     kept = (
         f"They are kept in {store.folder}: the same sweep goes on there."
         if store
         else "With --resume DIR they would have been kept."
     )
-    return EngineFailed(
-        f"{error} {len(done)} of {task.chunks} chunks were done; the first that was not begins at "
-        f"{place}. {kept}"
+    return (
+        f"{said} {task.chunks - len(left)} of {task.chunks} chunks were done; the first that was "
+        f"not begins at {place}. {kept}"
     )
 
 

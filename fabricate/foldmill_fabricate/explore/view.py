@@ -22,10 +22,12 @@ from foldmill_fabricate.explore.sweep import WORDS, Sweep
 MOST_THUMBNAILS = 12
 THUMBNAILS = 8
 """As many as a picture chooses itself."""
+CENTRES = 4
+"""Of them, at most so many are centres of regions: what one map has at its rim is shown, too."""
 LEAST_SHARE = 0.02
 """Of the free cells that a region must have to be shown by its centre."""
 APART = 0.12
-"""Least distance of two forms it chooses inside a region, as a share of the picture's sides."""
+"""Least distance of two forms it chooses, as a share of the picture's sides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,13 +117,24 @@ def _chosen(seen: View) -> list[int]:
     """Return the centres of the largest free regions, then free rows far from those chosen."""
     is_free = seen.codes == Outcome.FREE
     joined = seen.sweep.joined[: len(seen.axes)]
-    found = regions(seen.grid, is_free.ravel(), joined)[1][:THUMBNAILS]
-    chosen = [r.centre for r in found if r.size >= LEAST_SHARE * np.count_nonzero(is_free)]
-    if not chosen:
+    found = regions(seen.grid, is_free.ravel(), joined)[1]
+    centres = [r.centre for r in found if r.size >= LEAST_SHARE * np.count_nonzero(is_free)]
+    if not centres:
         return []
+    chosen = _apart(centres, is_free.shape)
     for cells in (_inner(is_free), is_free):
         chosen = _spread(cells, chosen)
     return [int(row) for row in seen.rows.ravel()[chosen]]
+
+
+def _apart(centres: list[int], shape: tuple[int, ...]) -> list[int]:
+    """Return the first of the cells and each further one that is far from all before it."""
+    spots = np.stack(np.unravel_index(centres, shape)).T / np.array(shape)
+    taken: list[int] = []
+    for place, spot in enumerate(spots):
+        if np.linalg.norm(spots[taken] - spot, axis=1).min(initial=np.inf) >= APART:
+            taken.append(place)
+    return [centres[place] for place in taken[:CENTRES]]
 
 
 def _spread(cells: NDArray[np.bool_], chosen: list[int]) -> list[int]:

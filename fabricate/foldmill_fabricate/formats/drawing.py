@@ -53,7 +53,12 @@ ANCHOR = Layer("ANCHOR", 20, "#b4b4b4", 5)
 """Corner marks; no output."""
 
 _BY_NAME = {layer.name: layer for layer in LAYERS}
-_CUTS = {Role.HOLE: "REG", Role.CUT_INNER: "CUT_INNER", Role.CUT_OUTER: "CUT_OUTER"}
+_CUTS = {
+    Role.HOLE: "REG",
+    Role.RELIEF: "CUT_INNER",
+    Role.CUT_INNER: "CUT_INNER",
+    Role.CUT_OUTER: "CUT_OUTER",
+}
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill import Fold, UnknownName
-from foldmill_fabricate.errors import DoesNotFit
+from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.machines import Axes, Dialect
 from foldmill_fabricate.passes import Face, Fit, Plan, SetUp
 from foldmill_fabricate.sheet import seen_by_machine
@@ -50,7 +50,15 @@ def layout(plan: Plan) -> list[Part]:
 
 
 def write(plan: Plan, fold: Fold) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
-    """Return every program of the plan by file name; raises DoesNotFit as ``program`` does."""
+    """Return every program of the plan by file name.
+
+    Raises CannotPlan for a machine that speaks another language, DoesNotFit as ``program`` does.
+    """
+    if plan.machine.language != "hpgl":
+        raise CannotPlan(
+            f"{plan.machine.slug} speaks {plan.machine.language}, and programs in that language "
+            f"cannot be written yet. Plan with --to svg,dxf and open a drawing in its own software."
+        )
     return {part.name: program(plan, part.setups) for part in layout(plan)}
 
 
@@ -86,11 +94,13 @@ def half_away(values: ArrayLike) -> Steps:
 
 
 def steps(points: ArrayLike, axes: Axes, where: str) -> Steps:
-    """Turn carrier coordinates (n, 2) mm into machine steps (n, 2).
+    """Turn carrier coordinates (n, 2) mm into machine steps (n, 2), calibrated for the machine.
 
     Raises DoesNotFit, naming ``where`` and the missing mm, outside the range the firmware takes.
     """
     xy = np.asarray(points, float)
+    x, y = xy.T
+    xy = np.column_stack([axes.scale_x * (x + y * np.tan(np.radians(axes.skew))), axes.scale_y * y])
     found = half_away((xy[:, ::-1] if axes.swap else xy) * axes.units_per_mm)
     short = max(int(axes.lowest - found.min()), int(found.max() - axes.highest))
     if short > 0:

@@ -27,6 +27,11 @@ _GROOVES = {
     "inside": "towards its groove, which closes",
     "either": "both ways",
 }
+_FREED = {
+    "through-cut": "Take the part out of its ties and cut them flush.",
+    "score-and-snap": "Bend the waste back along the outline until it snaps off, side by side.",
+    "pen": "Cut the part out by hand along its drawn outline.",
+}
 _KINDS = {
     Assignment.M: "mountain",
     Assignment.V: "valley",
@@ -39,16 +44,27 @@ def summary(plan: Plan) -> str:
     size = plan.sheet
     return (
         f"Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm on a mat "
-        f"of {size.carrier_width:g} × {size.carrier_height:g} mm   About "
+        f"of {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   About "
         f"{max(1, round(plan.figures.seconds / 60))} min of motion"
     )
 
 
+def _mass(plan: Plan) -> float:
+    """Return the weight of the blank, g."""
+    volume = plan.sheet.width * plan.sheet.height * plan.material.thickness
+    return plan.material.density * volume / 1000
+
+
 def setup_rows(plan: Plan) -> list[tuple[Row, str]]:
     """Return per set-up the table's row and what to do before it, in order of work."""
-    programs = {n: part.name for part in hpgl.layout(plan) for n in part.setups}
+    writes = plan.machine.language == "hpgl"
+    parts = hpgl.layout(plan) if writes else ()
+    programs = {n: part.name for part in parts for n in part.setups}
     return [
-        (_setup_row(plan, work, setup, programs[setup.number]), before(plan, work.face, setup))
+        (
+            _setup_row(plan, work, setup, programs.get(setup.number, "–")),
+            before(plan, work.face, setup),
+        )
         for work in plan.passes
         for setup in work.setups
     ]
@@ -74,11 +90,28 @@ def before(plan: Plan, face: Face, setup: SetUp) -> str:
     """Return what the operator does before a set-up starts; empty where that is nothing."""
     doing = {
         Gate.LOAD: f"load the sheet, {face} up, lower left corner at {_corner(plan)}",
-        Gate.TOOL: f"set the blade to stand out {setup.exposure:g} mm, the force to"
-        f" {setup.force:g} gf",
+        Gate.TOOL: _tooling(plan, setup),
         Gate.FLIP: f"turn the sheet over {plan.flip.kind} as drawn below, and find the marks",
     }
     return "; ".join(doing[gate] for gate in setup.gates)
+
+
+def _tooling(plan: Plan, setup: SetUp) -> str:
+    """Return how the tool is set, depth first where depth is what counts."""
+    process = plan.material.score if setup.process == "score" else plan.material.cut
+    tools = plan.machine.tools
+    power = "find power and speed on waste"
+    if tools.max_force is not None:
+        units = plan.machine.language != "hpgl"
+        own = f" ({setup.force / tools.force_unit:.0f} of its own units)" if units else ""
+        pace = f", the speed to {setup.speed / tools.speed_unit:.2g}" if units else ""
+        power = f"the force to {setup.force:g} gf{own}{pace}"
+    if not setup.exposure:
+        return f"take the tool for {process.title}, set {power}"
+    angle = f" ({process.blade_angle:g}°)" if process.blade_angle else ""
+    if process.limited_by == "z":
+        return f"set the tool{angle} {setup.exposure:g} mm deep in z, {power}"
+    return f"set the blade{angle} to stand out {setup.exposure:g} mm, {power}"
 
 
 def _corner(plan: Plan) -> str:
@@ -134,7 +167,7 @@ def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
             "same sheet and bend it before you trust them."
         )
     cut, strongest = plan.material.cut, plan.machine.tools.max_force
-    if strongest < cut.force_needed:
+    if strongest is not None and strongest < cut.force_needed:
         said.append(
             f"This machine presses with {strongest:g} gf at most; cutting "
             f"{plan.material.thickness:g} mm through takes about {cut.force_needed:g} gf, so it "
@@ -187,7 +220,7 @@ def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[
         f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
         f"a straight edge: mountains with the front outside, valleys with the reverse outside."
     )
-    steps = ["Take the part out of its ties and cut them flush.", flex]
+    steps = [_FREED[plan.material.cut.kind], flex]
     standing = [group.letter for group in found if not group.is_closed]
     closing = [group.letter for group in found if group.is_closed]
     if standing:
@@ -202,8 +235,16 @@ def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[
             "Close the seam: bring its two edges together, tabs on the inside where there are any, "
             "and glue or tape it from one end to the other."
         )
-    steps.append(
-        "The sheet springs back: overfold where there is room, hold each fold for some seconds, "
-        "and hold the finished form (clips, tape) until it stays."
+    return [*steps, _springback(plan)]
+
+
+def _springback(plan: Plan) -> str:
+    material = plan.material
+    by = f" by {material.springback_min:g} to {material.springback_max:g}°"
+    cold = material.min_fold_temperature
+    warm = "" if cold is None else f" Do not fold below {cold:g} °C."
+    grain = " It folds more sharply along its grain than across it." if material.directional else ""
+    return (
+        f"The sheet springs back{by}: overfold where there is room, hold each fold for some "
+        f"seconds, and hold the finished form (clips, tape) until it stays.{warm}{grain}"
     )
-    return steps

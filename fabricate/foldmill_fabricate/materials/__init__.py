@@ -2,59 +2,47 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from foldmill_fabricate.presets import Preset
-from foldmill_fabricate.units import Deg, GramForce, Mm, MmPerSecond
+from foldmill_fabricate.materials.processes import (
+    AnyCut,
+    AnyScore,
+    CreaseWheel,
+    Cut,
+    HalfCut,
+    Kind,
+    PenLine,
+    PenOutline,
+    Perforation,
+    Process,
+    Score,
+    ScoreAndSnap,
+    Stylus,
+    ThroughCut,
+    VScore,
+)
+from foldmill_fabricate.presets import INFORMATION, Preset, Sourced
+from foldmill_fabricate.units import Celsius, Deg, Gigapascal, GramsPerCm3, Mm, PerMillionKelvin
 
-
-class Process(Preset):
-    """How one kind of line is made in the material."""
-
-    title: str
-    exposure: Mm = Field(ge=0)
-    """How far the blade stands out of its holder: it sets the depth."""
-    force: GramForce = Field(ge=0)
-    speed: MmPerSecond = Field(gt=0)
-    repeats: int = Field(ge=1, le=20)
-    """How often the knife goes over each stroke."""
-    overcut: Mm = Field(0.0, ge=0)
-    """How far a closed cut runs on past its start."""
-
-
-class Score(Process):
-    """How a crease is scored."""
-
-    score_face: Literal["outside", "inside", "either"]
-    """Which face of the fold carries the groove: a half-cut opens on the outside."""
-    depth_ratio: float = Field(gt=0, lt=1)
-    """Depth of the groove as a share of the thickness."""
-    depth_ratio_min: float = Field(gt=0, lt=1)
-    depth_ratio_max: float = Field(gt=0, lt=1)
-    web_min: Mm = Field(gt=0)
-    """The least material that must remain under a groove, or between two."""
-    setback: Mm = Field(ge=0)
-    """How far scores stop short of a vertex where creases meet."""
-    min_spacing: Mm = Field(ge=0)
-    """Least distance of parallel scores on one face."""
-    min_scored_angle: Deg = Field(0.0, ge=0)
-    """Creases that fold by less are not scored."""
-
-
-class Cut(Process):
-    """How the sheet is cut through."""
-
-    force_needed: GramForce = Field(ge=0)
-    """Force below which a machine does not get through reliably."""
-    tie_width: Mm = Field(gt=0)
-    tie_pitch: Mm = Field(gt=0)
-    tie_corner: Mm = Field(ge=0)
-    """Least distance of a tie from a corner."""
-    swivel_force: GramForce = Field(0.0, ge=0)
-    """Force at which a drag knife is lifted out and turned at sharp corners: thick sheets break its
-    tip. 0: it is turned in the material."""
+__all__ = [
+    "CreaseWheel",
+    "Cut",
+    "HalfCut",
+    "Holes",
+    "Kind",
+    "Material",
+    "PenLine",
+    "PenOutline",
+    "Perforation",
+    "Process",
+    "Score",
+    "ScoreAndSnap",
+    "Stylus",
+    "ThroughCut",
+    "VScore",
+]
 
 
 class Holes(Preset):
@@ -67,27 +55,81 @@ class Holes(Preset):
     """Least distance from a hole's rim to the edge of the blank."""
 
 
-class Material(Preset):
+class Material(Sourced):
     """A sheet of something that can be scored and folded."""
 
     slug: str
     title: str
     thickness: Mm = Field(gt=0)
+    """Measured, not as sold."""
     stock_width: Mm = Field(gt=0)
     stock_height: Mm = Field(gt=0)
     part_clearance: Mm = Field(ge=0)
     """Least distance of the part from the edge of the blank."""
     min_feature: Mm = Field(ge=0)
     """Shortest facet edge that can be folded well."""
-    expansion: float = Field(ge=0, json_schema_extra={"x-unit": "1e-6/K"})
-    score: Score
-    cut: Cut
+    min_flap: Mm = Field(ge=0)
+    """Least width of a facet that stands free at the outline."""
+    relief_diameter: Mm = Field(ge=0)
+    """Least diameter of a relief hole at a vertex; 0 leaves it to the thickness alone."""
+    density: GramsPerCm3 = Field(gt=0)
+    e_modulus: Gigapascal = Field(gt=0, json_schema_extra=INFORMATION)
+    """Stiffness."""
+    expansion: PerMillionKelvin = Field(ge=0)
+    """How much it grows with temperature."""
+    directional: bool
+    """Whether it has a grain or a direction of extrusion."""
+    layer_clearance: Mm = Field(ge=0, json_schema_extra=INFORMATION)
+    """Air left between layers that are folded over each other."""
+    max_layers: int = Field(ge=1, json_schema_extra=INFORMATION)
+    """Most layers that can lie in one fold."""
+    min_fold_temperature: Celsius | None = None
+    """Below this it cracks when folded."""
+    springback_min: Deg = Field(0.0, ge=0)
+    """How far a fold opens again, at least."""
+    springback_max: Deg = Field(0.0, ge=0)
+    """How far a fold opens again, at most."""
+    score: AnyScore
+    """The process creases are made by: in a preset the one preferred, in a plan the one used."""
+    other_scores: tuple[AnyScore, ...] = ()
+    """What takes its place on machines that do not offer it, in order of preference."""
+    cut: AnyCut
+    """The process outlines are made by."""
+    other_cuts: tuple[AnyCut, ...] = ()
+    """What takes its place on machines that do not offer it, in order of preference."""
     holes: Holes
     provenance: str
     """Where the values come from, and who tested them; "untested" until a coupon was read."""
     tested: bool
+    """Whether a coupon of it was cut, read and recorded."""
+    tested_by: str = Field("", json_schema_extra=INFORMATION)
+    """Who read the coupon."""
+    tested_on: str = Field("", json_schema_extra=INFORMATION)
+    """When, as YYYY-MM-DD."""
+    notes: str = Field("", json_schema_extra=INFORMATION)
 
     @property
     def web(self) -> float:
         """Material left under a groove of the preset's depth, mm."""
-        return self.thickness * (1 - self.score.depth_ratio)
+        return self.thickness * self.score.remains
+
+    @property
+    def scores(self) -> tuple[AnyScore, ...]:
+        """Every way to crease it, the preferred one first."""
+        return (self.score, *self.other_scores)
+
+    @property
+    def cuts(self) -> tuple[AnyCut, ...]:
+        """Every way to part it, the preferred one first."""
+        return (self.cut, *self.other_cuts)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        for offered in (self.scores, self.cuts):
+            kinds = [process.kind for process in offered]
+            twice = {kind for kind in kinds if kinds.count(kind) > 1}
+            if twice:
+                raise ValueError(f"{', '.join(sorted(twice))} is described more than once")
+        if self.springback_max < self.springback_min:
+            raise ValueError("springback_max must be at least springback_min")
+        return self

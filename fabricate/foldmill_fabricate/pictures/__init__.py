@@ -11,8 +11,10 @@ from foldmill_fabricate.pictures.gallery import gallery
 from foldmill_fabricate.pictures.motion import motion_picture
 from foldmill_fabricate.pictures.pattern import pattern_picture
 from foldmill_fabricate.pictures.pattern_svg import pattern_svg
+from foldmill_fabricate.pictures.places import places_picture
 from foldmill_fabricate.pictures.sheet import sheet_picture
 from foldmill_fabricate.pictures.show import show_picture
+from foldmill_fabricate.pictures.stages import stages_picture
 
 __all__ = [
     "angles_picture",
@@ -22,6 +24,8 @@ __all__ = [
     "motion_picture",
     "pattern_picture",
     "pattern_svg",
+    "places_picture",
     "sheet_picture",
     "show_picture",
+    "stages_picture",
 ]

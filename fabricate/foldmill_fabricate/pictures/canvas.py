@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
+from foldmill import Fold
+from foldmill.exchange.marking import warning
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MM_PER_INCH = 25.4
+ALARM = "#c00000"
 DPI = 120
 
 
@@ -34,6 +38,11 @@ def figure(width: float, height: float) -> Figure:
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width / MM_PER_INCH, height / MM_PER_INCH), dpi=DPI)
+
+
+def warn(on: Figure, fold: Fold) -> None:
+    """Write in red at the foot of a figure that a fold which was marked does not fold."""
+    on.text(0.5, 0.012, warning(fold), ha="center", color=ALARM, fontsize=11, weight="bold")
 
 
 def flat_axes(on: Figure, box: tuple[float, float, float, float]) -> Axes:

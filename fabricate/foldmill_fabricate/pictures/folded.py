@@ -30,6 +30,7 @@ def folded_picture(fold: Fold) -> bytes:
             axes.set_title(name, fontsize=9)
         figure.suptitle(f"{fold.meta.get('title', 'Folded form')}, {size_text(fold)}", fontsize=12)
         _name_faces(figure.add_axes((0, 0, 1, 0.08)))
+        canvas.warn(figure, fold)
         return canvas.png(figure)
 
 

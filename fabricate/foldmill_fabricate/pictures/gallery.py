@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from foldmill import Design, Fold
+from foldmill import Design, Fold, Stage
 from foldmill.motion import Motion
 from foldmill_fabricate.pictures.motion import motion_picture
 from foldmill_fabricate.pictures.show import show_picture
+from foldmill_fabricate.pictures.stages import stages_picture
 
 PAGE = "gallery.md"
 STEPS, PIXELS = 10, 240
@@ -32,13 +33,25 @@ def gallery(designs: Mapping[str, Design[Any]]) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for slug, presets in folds.items():
         for name, fold in presets.items():
-            files |= pictures(slug, name, fold)
+            files |= pictures(slug, name, fold, stages_of(designs[slug], name))
     return {**files, PAGE: page(designs, folds).encode()}
 
 
-def pictures(slug: str, preset: str, fold: Fold) -> dict[str, bytes]:
-    """Return the pictures of a preset by name: pattern and form, and how it moves if it does."""
-    files = {picture_name(slug, preset): show_picture(fold)}
+def stages_of(design: Design[Any], preset: str) -> tuple[Stage, ...]:
+    """Return the shapes on the way to a preset's form, where the family has any."""
+    return design.stages(design.preset(preset)) if design.stages else ()
+
+
+def still_picture(fold: Fold, stages: tuple[Stage, ...]) -> bytes:
+    """Return the picture of a preset: pattern and form, and before them what led to it."""
+    return stages_picture(fold, stages) if stages else show_picture(fold)
+
+
+def pictures(
+    slug: str, preset: str, fold: Fold, stages: tuple[Stage, ...] = ()
+) -> dict[str, bytes]:
+    """Return the pictures of a preset by name: how it looks, and how it moves if it does."""
+    files = {picture_name(slug, preset): still_picture(fold, stages)}
     motion = shown_motion(fold)
     if motion is not None:
         moving = motion_picture(fold, motion, STEPS, ".gif", PIXELS)

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Fold, FoldedForm
+from foldmill.exchange.marking import warning
 from foldmill.motion import Motion
+from foldmill_fabricate.pictures import canvas
 from foldmill_fabricate.pictures.folded import ABOVE
 from foldmill_fabricate.pictures.render import Ball, render
 
@@ -28,7 +30,7 @@ def motion_picture(
     fold: Fold, motion: Motion, steps: int, suffix: str = ".gif", pixels: int = PIXELS
 ) -> bytes:
     """Return the motion there and back as an animated GIF or WebP, by the suffix."""
-    from PIL import Image
+    from PIL import Image, ImageDraw
 
     frames = places(motion, steps)
     view = Ball.around(np.array(frames))
@@ -36,6 +38,8 @@ def motion_picture(
         Image.fromarray(np.uint8(np.rint(255 * _image(fold, vertices, view, pixels))))
         for vertices in frames
     ]
+    for image in images:
+        ImageDraw.Draw(image).text((6, pixels - 16), warning(fold), fill=canvas.ALARM)
     there_and_back = [*images, *images[-2:0:-1]]
     times = [FRAME_MS] * len(there_and_back)
     times[0] = times[len(images) - 1] = REST_MS

@@ -41,11 +41,16 @@ def pattern_picture(fold: Fold) -> bytes:
         figure = canvas.figure(190, 200)
         draw(canvas.flat_axes(figure, (0.02, 0.05, 0.96, 0.88)), fold.pattern)
         figure.suptitle(str(fold.meta.get("title", "Crease pattern")), fontsize=12)
+        canvas.warn(figure, fold)
         return canvas.png(figure)
 
 
-def draw(axes: Axes, pattern: CreasePattern, *, legend: bool = True) -> None:
+def draw(
+    axes: Axes, pattern: CreasePattern, *, legend: bool = True, thickness: float = 1.0
+) -> None:
     """Draw a pattern into axes in its own mm; with legend and scale bar below, or bare.
+
+    thickness : of the lines, as a share of their usual one.
 
     A slit is drawn once, as an inner cut.
     """
@@ -54,8 +59,9 @@ def draw(axes: Axes, pattern: CreasePattern, *, legend: bool = True) -> None:
     for kind, look in LOOKS.items():
         chosen = pattern.assignments == kind
         if chosen.any():
+            width = thickness * look.width
             canvas.add_lines(
-                axes, ends[chosen], color=look.colour, linewidth=look.width, linestyle=look.style
+                axes, ends[chosen], color=look.colour, linewidth=width, linestyle=look.style
             )
     low, high = pattern.vertices.min(axis=0), pattern.vertices.max(axis=0)
     margin = 0.02 * pattern.size

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from foldmill import Assignment, Fold
+from foldmill.exchange.marking import warning
 from foldmill.slits import sewn
 from foldmill_fabricate.formats.svg import canvas, number, path, to_bytes
 
@@ -34,9 +35,9 @@ def pattern_svg(fold: Fold) -> bytes:
     corner = pattern.vertices.min(axis=0) - MARGIN
     width, height = np.ptp(pattern.vertices, axis=0) + 2 * MARGIN
     svg = canvas(float(width), float(height))
+    about = "Crease pattern in Origami Simulator's colours. Not a cutting file."
     svg.set_desc(
-        title=str(fold.meta.get("title", "Crease pattern")),
-        desc="Crease pattern in Origami Simulator's colours. Not a cutting file.",
+        title=str(fold.meta.get("title", "Crease pattern")), desc=f"{about} {warning(fold)}".strip()
     )
     for edge, code, angle in zip(
         pattern.edges, pattern.assignments, pattern.fold_angles, strict=True

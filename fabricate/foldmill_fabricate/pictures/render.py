@@ -71,14 +71,33 @@ def render(fold: Fold, camera: Camera, pixels: int, view: Ball | None = None) ->
     view : what must fit into the image; where it is not given, the form itself, as large as it
     can be. Raises InvalidInput where the fold has no folded form.
     """
-    side = pixels * SAMPLES
     ball = view or Ball.around(form_of(fold).vertices)
-    seen = (_spread(fold) - ball.middle) @ camera.axes().T
-    nearness = 1.0 / (camera.distance * ball.reach - seen[:, :, 2])
+    return render_triangles(
+        _spread(fold), _inked_sides(fold), camera, pixels, ball, is_fitted=view is None
+    )
+
+
+def render_triangles(
+    corners: Floats,
+    inked: NDArray[np.bool_],
+    camera: Camera,
+    pixels: int,
+    view: Ball,
+    *,
+    is_fitted: bool = False,
+) -> Floats:
+    """Return an image (pixels, pixels, 3) in 0..1 of triangles (F, 3, 3) on white.
+
+    inked : (F, 3) whether side k of a triangle is drawn; view : what must fit into the image;
+    is_fitted : make what is seen as large as it can be, whatever the view.
+    """
+    side = pixels * SAMPLES
+    seen = (corners - view.middle) @ camera.axes().T
+    nearness = 1.0 / (camera.distance * view.reach - seen[:, :, 2])
     flat = seen[:, :, :2] * nearness[:, :, None]
-    screen = _fitted(flat, side) if view is None else _fixed(flat, camera, side)
-    colours = _shade(seen, camera.distance * ball.reach)
-    image = _fill(screen, nearness, colours, _inked_sides(fold), side)
+    screen = _fitted(flat, side) if is_fitted else _fixed(flat, camera, side)
+    colours = _shade(seen, camera.distance * view.reach)
+    image = _fill(screen, nearness, colours, inked, side)
     small: Floats = image.reshape(pixels, SAMPLES, pixels, SAMPLES, 3).mean(axis=(1, 3))
     return small[::-1]
 

@@ -20,6 +20,7 @@ Key = tuple[Role, Face | None]
 LOOKS: dict[Key, tuple[str, str, float]] = {
     (Role.SCORE, Face.FRONT): ("front scores", "#0050d0", 1.2),
     (Role.SCORE, Face.REVERSE): ("reverse scores", "#f07800", 1.2),
+    (Role.RELIEF, None): ("relief holes", "#00a0a0", 1.4),
     (Role.CUT_INNER, None): ("inner cuts", "#a09000", 1.4),
     (Role.CUT_OUTER, None): ("outline", "#d01010", 1.6),
     (Role.HOLE, None): ("holes", "#109030", 1.4),

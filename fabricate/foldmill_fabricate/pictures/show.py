@@ -18,4 +18,5 @@ def show_picture(fold: Fold) -> bytes:
             folded.draw(beside, fold)
             beside.set_title(folded.size_text(fold), fontsize=10)
         figure.suptitle(str(fold.meta.get("title", "Crease pattern")), fontsize=13)
+        canvas.warn(figure, fold)
         return canvas.png(figure)

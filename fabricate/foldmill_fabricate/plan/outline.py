@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from foldmill import Assignment, CreasePattern
 from foldmill_fabricate.errors import CannotPlan
-from foldmill_fabricate.materials import Cut
+from foldmill_fabricate.materials import Cut, ScoreAndSnap, ThroughCut
 from foldmill_fabricate.passes import Stroke, Tie
 from foldmill_fabricate.toolpath import order, trails
 
@@ -20,6 +20,16 @@ STRAIGHT_DEG = 0.001
 """deg. An outline that bends by less is one straight edge."""
 LEAST_TIES = 3
 """Fewer let the part swing about the last one."""
+
+
+def refuse_snapped_slots(pattern: CreasePattern, cut: Cut) -> None:
+    """Raise CannotPlan where inner cuts or holes would have to be snapped: only a rim snaps off."""
+    count = pattern.count(Assignment.C) + len(pattern.outline()[1:])
+    if isinstance(cut, ScoreAndSnap) and count:
+        raise CannotPlan(
+            f"The pattern has {count} inner cuts, and only an outline can be snapped off. Plan "
+            f"with --outline through-cut on a machine that offers it."
+        )
 
 
 def inner_cuts(
@@ -39,14 +49,16 @@ def outer_cut(
     """Return the outline as strokes between ties, and the ties; spots : (V, 2) on the sheet.
 
     Ties lie on straight edges, away from corners and from the mouths of inner cuts, about
-    ``tie_pitch`` apart, three at least. Raises CannotPlan where no edge is long enough to carry
-    them.
+    ``tie_pitch`` apart, three at least. What does not go through needs none: the outline is one
+    closed stroke. Raises CannotPlan where no edge is long enough to carry a tie.
     """
     loops = pattern.outline()
     if not loops:
         raise CannotPlan("The pattern has no closed outline, so nothing can be cut free.")
     cuts = pattern.edges[pattern.assignments == Assignment.C]
     rim = _corners(spots[loops[0]], np.isin(loops[0], cuts))
+    if not isinstance(cut, ThroughCut):
+        return (_stroke([*rim, rim[0]]),), ()
     places = _tie_places(rim, cut)
     ties = [_at(rim, place) for place in places]
     strokes = []
@@ -72,7 +84,7 @@ def _reached(rim: Floats) -> Floats:
     return np.concatenate([[0.0], np.cumsum(np.hypot(*steps.T))])
 
 
-def _tie_places(rim: Floats, cut: Cut) -> list[float]:
+def _tie_places(rim: Floats, cut: ThroughCut) -> list[float]:
     """Return the middle of each tie as a length along the rim, ascending."""
     reached = _reached(rim)
     room = cut.tie_corner + cut.tie_width / 2

@@ -23,14 +23,18 @@ ROOMY = 30.0
 
 
 def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float, float]) -> Sheet:
-    """Centre the blank on the carrier; raises DoesNotFit with the missing millimetres."""
+    """Centre the blank between the carrier's margins.
+
+    Raises DoesNotFit with the missing millimetres.
+    """
     (width, height), (across, along) = blank, carrier
     bed = machine.bed
+    left, lead, right, trail = bed.margins
     for name, need, room in (
         ("carrier is", across, bed.width),
         ("carrier is", along, bed.length),
-        ("blank and the margins are", width + 2 * bed.margin, across),
-        ("blank and the margins are", height + 2 * bed.margin, along),
+        ("blank and the margins are", width + left + right, across),
+        ("blank and the margins are", height + lead + trail, along),
     ):
         if need > room:
             raise DoesNotFit(
@@ -42,8 +46,8 @@ def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float
         height=height,
         carrier_width=across,
         carrier_height=along,
-        dx=(across - width) / 2,
-        dy=(along - height) / 2,
+        dx=left + (across - left - right - width) / 2,
+        dy=lead + (along - lead - trail - height) / 2,
     )
 
 

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
-from foldmill_fabricate.materials import Holes
+from foldmill_fabricate.materials import Holes, Material
 from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
 from foldmill_fabricate.sheet import flipped
-from foldmill_fabricate.toolpath.knife import facets
+from foldmill_fabricate.toolpath.knife import facets, is_facetted
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -40,8 +40,11 @@ class Registration:
     findings: tuple[Finding, ...] = ()
 
 
-def register(part: Floats, sheet: Sheet, flip: Flip, holes: Holes) -> Registration:
+def register(part: Floats, sheet: Sheet, flip: Flip, material: Material) -> Registration:
     """Find holes and witness mark in the waste around a part, its outline (n, 2) on the sheet."""
+    holes = material.holes
+    if not material.cut.goes_through:
+        return Registration(findings=(_not_cut(material),))
     radius = holes.diameter / 2
     room = (holes.edge_clearance + radius, holes.part_clearance + radius)
     spots = _grid(sheet)
@@ -103,6 +106,16 @@ def _two_pairs(spots: Floats, sheet: Sheet, flip: Flip) -> tuple[Floats, Floats]
     return None if best is None else (both[best[1]], both[best[2]])
 
 
+def _not_cut(material: Material) -> Finding:
+    return Finding(
+        "no-registration-holes",
+        Severity.WARNING,
+        "waste",
+        f"Registration holes are cut through, and this outline is made by {material.cut.title}.",
+        "Lay both passes against the same edge stop, and write an F on the front by hand.",
+    )
+
+
 def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
     import shapely
 
@@ -146,6 +159,11 @@ def _witness(
     return tuple(
         Stroke(points=tuple((float(x), float(y)) for x, y in line + spot)) for line in WITNESS
     ), ()
+
+
+def hole_rim(hole: Hole, offset: float) -> Stroke:
+    """Return a hole's rim as a blade of this offset (mm) can follow it."""
+    return facetted(hole, offset) if is_facetted(hole.diameter / 2, offset) else circle(hole)
 
 
 def circle(hole: Hole, corner_tolerance: float = 0.02) -> Stroke:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.materials import CreaseWheel, HalfCut, Stylus, VScore
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.plan import spacing
-from foldmill_fabricate.plan.scores import held_back
+from foldmill_fabricate.plan import relief, shapes, spacing
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -22,16 +22,16 @@ SHORT_CREASE = 2.0
 
 
 def refuse_short_creases(
-    pattern: CreasePattern, by_face: dict[Face, Indices], stops: set[int], setback: float
+    pattern: CreasePattern, by_face: Mapping[Face, Indices], stops: Mapping[int, float]
 ) -> None:
-    """Raise CannotPlan for a crease that its setbacks would swallow."""
+    """Raise CannotPlan for a crease that its setbacks would swallow; stops : mm by vertex."""
     for edge in np.concatenate(list(by_face.values())).tolist():
-        taken = setback * sum(int(v) in stops for v in pattern.edges[edge])
-        if pattern.edge_lengths[edge] <= taken:
+        taken = [stops.get(int(v), 0.0) for v in pattern.edges[edge]]
+        if pattern.edge_lengths[edge] <= sum(taken):
             raise CannotPlan(
                 f"Crease {edge} is {pattern.edge_lengths[edge]:.2f} mm long, and scores stop "
-                f"{setback:g} mm short of the vertices at its ends: nothing is left to score. "
-                f"Enlarge the design or merge its vertices."
+                f"{taken[0]:g} and {taken[1]:g} mm short of the vertices at its ends: nothing is "
+                f"left to score. Enlarge the design or merge its vertices."
             )
 
 
@@ -39,16 +39,24 @@ def judge(
     pattern: CreasePattern,
     spots: Floats,
     by_face: dict[Face, Indices],
+    stops: Mapping[int, float],
+    relieved: Collection[int],
     plan: Plan,
 ) -> tuple[Finding, ...]:
-    """Return the findings of a plan; spots : (V, 2) the vertices on the sheet, mm."""
-    stops = held_back(pattern, by_face)
+    """Return the findings of a plan.
+
+    spots : (V, 2) the vertices on the sheet, mm; stops : vertices that scores stop short of, and by
+    how many mm; relieved : those with a relief hole.
+    """
     return (
         *_material(plan),
+        *_language(plan),
         *_force(plan),
         *_depth(plan),
         *_short_creases(pattern, spots, by_face, stops, plan),
-        *spacing.findings(pattern, spots, by_face, stops, plan.material),
+        *spacing.findings(pattern, spots, by_face, stops, plan.material, relieved),
+        *relief.findings(plan.reliefs, pattern, spots),
+        *shapes.findings(pattern, spots, plan),
     )
 
 
@@ -71,8 +79,29 @@ def _material(plan: Plan) -> Iterator[Finding]:
         )
 
 
+def _language(plan: Plan) -> Iterator[Finding]:
+    if plan.machine.language != "hpgl":
+        yield Finding(
+            "no-programs",
+            Severity.WARNING,
+            plan.machine.slug,
+            f"This machine speaks {plan.machine.language}, and programs in that language cannot be "
+            f"written yet.",
+            "Open the drawings in the machine's own software, one face after the other.",
+        )
+
+
 def _force(plan: Plan) -> Iterator[Finding]:
     cut, tools = plan.material.cut, plan.machine.tools
+    if tools.max_force is None:
+        yield Finding(
+            "power-by-trial",
+            Severity.INFO,
+            plan.machine.slug,
+            "This machine sets no force, and no table of its power and speed is known.",
+            "Find both on waste: lines that are to go through must fall out by themselves.",
+        )
+        return
     if tools.max_force < cut.force_needed:
         yield Finding(
             "through-cut-marginal",
@@ -85,11 +114,11 @@ def _force(plan: Plan) -> Iterator[Finding]:
     if tools.max_force < plan.material.score.force:
         yield Finding(
             "score-force",
-            Severity.ERROR,
+            Severity.WARNING,
             plan.machine.slug,
-            f"Scoring needs {plan.material.score.force:g} gf, and this machine has "
-            f"{tools.max_force:g} gf.",
-            "Take another machine, or a material that scores with less force.",
+            f"Scoring is set to {tools.max_force:g} gf, all this machine has; "
+            f"{plan.material.score.force:g} gf are usual.",
+            "Try one more repeat on waste.",
         )
 
 
@@ -104,20 +133,36 @@ def _depth(plan: Plan) -> Iterator[Finding]:
             f"are needed.",
             "Lower the depth ratio.",
         )
+    if isinstance(material.score, HalfCut | VScore | CreaseWheel | Stylus):
+        yield from _depth_range(material.slug, material.score)
+
+
+def _depth_range(slug: str, score: HalfCut | VScore | CreaseWheel | Stylus) -> Iterator[Finding]:
+    low, high = score.depth_ratio_min, score.depth_ratio_max
+    if not low <= score.depth_ratio <= high:
+        deep = score.depth_ratio > high
+        yield Finding(
+            "depth-range",
+            Severity.WARNING,
+            slug,
+            f"The {score.title} goes {score.depth_ratio:.0%} into the sheet; {low:.0%} to "
+            f"{high:.0%} are usual. {'The fold may tear' if deep else 'The fold may wander'}.",
+            f"Set depth_ratio to {(low + high) / 2:.2f}.",
+        )
 
 
 def _short_creases(
     pattern: CreasePattern,
     spots: Floats,
     by_face: dict[Face, Indices],
-    stops: set[int],
+    stops: Mapping[int, float],
     plan: Plan,
 ) -> Iterator[Finding]:
-    score, least = plan.material.score, plan.material.min_feature
+    least = plan.material.min_feature
     for face, edges in by_face.items():
         for edge in edges.tolist():
             length = float(pattern.edge_lengths[edge])
-            taken = score.setback * sum(int(v) in stops for v in pattern.edges[edge])
+            taken = sum(stops.get(int(v), 0.0) for v in pattern.edges[edge])
             x, y = spots[pattern.edges[edge]].mean(axis=0)
             if length < max(taken + SHORT_CREASE, least):
                 yield Finding(
@@ -126,4 +171,5 @@ def _short_creases(
                     f"crease {edge} on the {face} at ({x:.1f}, {y:.1f}) mm",
                     f"It is {length:.2f} mm long, of which {length - taken:.2f} mm are scored.",
                     "Fold it by hand along a ruler, or enlarge the design.",
+                    (float(x), float(y)),
                 )

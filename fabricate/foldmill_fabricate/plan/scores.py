@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Assignment, CreasePattern
+from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.passes import Face, Stroke
 from foldmill_fabricate.toolpath import order
 from foldmill_fabricate.toolpath.corners import by_time, free_turning
+from foldmill_fabricate.toolpath.perforation import Dashes, perforated, shortest
 from foldmill_fabricate.toolpath.routing import route
 
 Floats = NDArray[np.float64]
@@ -19,6 +23,9 @@ Indices = NDArray[np.intp]
 
 STRAIGHT_DEG = 0.001
 """deg. Two creases that bend by less at a vertex are one straight line to a knife."""
+TOUCH = 1e-6
+"""mm. How far a row of cuts is cut off at a vertex it stops short of: its own land does the rest.
+"""
 
 
 def held_back(pattern: CreasePattern, by_face: dict[Face, Indices]) -> set[int]:
@@ -58,8 +65,7 @@ def strokes(
     pattern: CreasePattern,
     spots: Floats,
     edges: Indices,
-    stops: set[int],
-    setback: float,
+    stops: Mapping[int, float],
     repeats: int,
     start: Floats,
     machine: Machine,
@@ -67,7 +73,7 @@ def strokes(
     """Return the score strokes of one face in order of work.
 
     spots : (V, 2) the vertices on the sheet, mm; edges : those scored on this face;
-    stops : vertices that scores stop short of, by ``setback`` mm; start : (2,) where the tool is.
+    stops : vertices that scores stop short of, and by how many mm; start : (2,) where the tool is.
     Creases are joined to trails, then divided where scores stop short. The pieces are ordered, not
     the trails: an even number of repeats ends a stroke where it began, so that the next piece of
     its trail is no nearer than others; and where it ends at the other end, ordering the pieces
@@ -75,22 +81,22 @@ def strokes(
     """
     corners = by_time(machine.motion) if machine.tools.trails else free_turning()
     found = route(spots, pattern.edges[edges], start, corners)
-    held = stops if setback > 0 else set()
-    pieces = [piece for trail in found.trails for piece in _divide(trail, spots, held, setback)]
+    held = {vertex: by for vertex, by in stops.items() if by > 0}
+    pieces = [piece for trail in found.trails for piece in _divide(trail, spots, held)]
     if len(pieces) == len(found.trails) and repeats % 2:
         return tuple(pieces)
     return order.sorted_strokes(pieces, repeats, start)
 
 
-def _divide(trail: tuple[int, ...], spots: Floats, stops: set[int], setback: float) -> list[Stroke]:
+def _divide(trail: tuple[int, ...], spots: Floats, stops: Mapping[int, float]) -> list[Stroke]:
     """Cut a trail into strokes where they must stop short of a vertex."""
     cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops]
     pieces = []
     for low, high in pairwise([0, *cuts, len(trail) - 1]):
         way = spots[list(trail[low : high + 1])]
         bent = [k for k in range(1, len(way) - 1) if _bends(way, k)]
-        one = _shortened(way[0], way[1], setback) if trail[low] in stops else way[0]
-        two = _shortened(way[-1], way[-2], setback) if trail[high] in stops else way[-1]
+        one = _shortened(way[0], way[1], stops[trail[low]]) if trail[low] in stops else way[0]
+        two = _shortened(way[-1], way[-2], stops[trail[high]]) if trail[high] in stops else way[-1]
         points = (one, *way[bent], two)
         pieces.append(Stroke(points=tuple((float(x), float(y)) for x, y in points)))
     return pieces
@@ -106,3 +112,29 @@ def _shortened(end: Floats, towards: Floats, setback: float) -> Floats:
     step = towards - end
     moved: Floats = end + step * (setback / float(np.hypot(*step)))
     return moved
+
+
+def dashed(pieces: tuple[Stroke, ...], score: Perforation) -> tuple[Stroke, ...]:
+    """Return the cuts of perforated lines, in the order and direction of the lines.
+
+    The lines run from vertex to vertex: the lands at their ends are the rows' own. Raises
+    CannotPlan for a line that is too short for any cut.
+    """
+    dashes = Dashes(score.cut, score.gap, score.setback)
+    found = []
+    for piece in pieces:
+        for start, end in pairwise(np.array(piece.points)):
+            cuts = perforated(start, end, dashes)
+            if not len(cuts):
+                raise _too_short(start, end, dashes)
+            found += [Stroke(points=((a[0], a[1]), (b[0], b[1]))) for a, b in cuts.tolist()]
+    return tuple(found)
+
+
+def _too_short(start: Floats, end: Floats, dashes: Dashes) -> CannotPlan:
+    x, y = (start + end) / 2
+    return CannotPlan(
+        f"The crease at ({x:.1f}, {y:.1f}) mm is {float(np.hypot(*(end - start))):.2f} mm long; a "
+        f"perforation takes {shortest(dashes):.2f} mm: its lands and half a cut. Enlarge the "
+        f"design or merge its vertices."
+    )

@@ -1,7 +1,8 @@
 """In which order the work is done, and what the operator does in between.
 
-Two faces: front holes, front scores, flip, reverse scores, inner cuts, outline last. One face:
-scores, inner cuts, outline. The tool is changed as rarely as that order allows.
+Two faces: front holes, front scores, flip, reverse scores, relief holes, inner cuts, outline last.
+One face: scores, relief holes, inner cuts, outline. The tool is changed as rarely as that
+order allows.
 """
 
 from __future__ import annotations
@@ -16,10 +17,9 @@ from numpy.typing import NDArray
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Flip, Gate, Operation, Pass, Role, SetUp, Sheet, Stroke
-from foldmill_fabricate.plan.registration import Registration, circle, facetted
+from foldmill_fabricate.plan.registration import Registration, hole_rim
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import order
-from foldmill_fabricate.toolpath.knife import is_facetted
 
 Floats = NDArray[np.float64]
 
@@ -29,6 +29,7 @@ class Lines:
     """What is drawn on one face, in order of work."""
 
     scores: tuple[Stroke, ...]
+    relief: tuple[Stroke, ...]
     inner: tuple[Stroke, ...]
     outer: tuple[Stroke, ...]
 
@@ -40,6 +41,7 @@ class _Draft:
     face: Face
     name: str
     process: Literal["score", "cut"]
+    """Which of the material's two processes."""
     operations: tuple[Operation, ...]
 
 
@@ -68,16 +70,12 @@ def passes(
         home = flipped([home], flip)[0]
     final = lines(last, home)
     drafts.append(_score(last, material, final.scores))
-    drafts.append(_cut("cut", last, material, inner=final.inner, outer=final.outer))
+    drafts.append(_cut("cut", last, material, (), final.relief, final.inner, final.outer))
     return _number([draft for draft in drafts if draft.operations], material, machine)
 
 
 def _hole_strokes(marks: Registration, offset: float, home: Floats) -> tuple[Stroke, ...]:
-    circles = [
-        facetted(hole, offset) if is_facetted(hole.diameter / 2, offset) else circle(hole)
-        for hole in marks.holes
-    ]
-    return order.sorted_strokes(circles, 1, home)
+    return order.sorted_strokes([hole_rim(hole, offset) for hole in marks.holes], 1, home)
 
 
 def _score(
@@ -96,6 +94,7 @@ def _cut(
     face: Face,
     material: Material,
     holes: tuple[Stroke, ...] = (),
+    relief: tuple[Stroke, ...] = (),
     inner: tuple[Stroke, ...] = (),
     outer: tuple[Stroke, ...] = (),
 ) -> _Draft:
@@ -104,6 +103,7 @@ def _cut(
         Operation(role=role, repeats=cut.repeats, overcut=cut.overcut, strokes=strokes)
         for role, strokes in (
             (Role.HOLE, holes),
+            (Role.RELIEF, relief),
             (Role.CUT_INNER, inner),
             (Role.CUT_OUTER, outer),
         )
@@ -121,9 +121,9 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
             number=number,
             name=draft.name,
             process=draft.process,
-            tool=machine.tools.score if draft.process == "score" else machine.tools.cut,
+            tool=machine.tools.station(process.kind),
             exposure=process.exposure,
-            force=min(process.force, machine.tools.max_force),
+            force=machine.tools.force(process.force),
             speed=process.speed,
             gates=_gates(before, draft, machine),
             swivel_force=_swivel_force(draft, material, machine),

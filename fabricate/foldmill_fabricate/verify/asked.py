@@ -131,11 +131,27 @@ class Asked:
         are not one groove: one straight line on one face. Where two are nearly that, either answer
         is right.
         """
-        setback = self.plan.material.score.setback
         bends = self._bends()
-        least = np.where(bends > tolerances.NEARLY_STRAIGHT_DEG, setback, 0.0)
-        most = np.where(bends > tolerances.STRAIGHT_DEG, setback, 0.0)
+        least = np.where(bends > tolerances.NEARLY_STRAIGHT_DEG, self._short_by(), 0.0)
+        most = np.where(bends > tolerances.STRAIGHT_DEG, self._short_by(), 0.0)
         return least[self.pattern.edges], most[self.pattern.edges]
+
+    @cached_property
+    def stops_at(self) -> Flags:
+        """(V,) whether scores stop short of a vertex."""
+        stops: Flags = self._bends() > tolerances.STRAIGHT_DEG
+        return stops
+
+    def _short_by(self) -> Floats:
+        """Return how far scores stop short of each vertex (V,) if they do: in a hole, its radius.
+
+        A plan that says a hole is where none belongs is told so elsewhere.
+        """
+        short = np.full(len(self.spots), self.plan.material.score.setback)
+        for hole in self.plan.reliefs:
+            near = np.hypot(*(self.spots - (hole.x, hole.y)).T) <= tolerances.PLAN_MM
+            short[near] = hole.diameter / 2
+        return short
 
     def _bends(self) -> Floats:
         """Return for each vertex (V,) by how many degrees its scored creases miss one groove."""

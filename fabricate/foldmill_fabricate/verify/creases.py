@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from foldmill import Assignment
 from foldmill.finding import Finding, Severity
 from foldmill.tolerances import COINCIDENT_MM
+from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.passes import Face, Role
-from foldmill_fabricate.verify import tolerances
+from foldmill_fabricate.verify import rows, tolerances
 from foldmill_fabricate.verify.asked import FACES, NOWHERE, Asked
 from foldmill_fabricate.verify.cover import (
     Pairs,
@@ -20,9 +21,11 @@ from foldmill_fabricate.verify.cover import (
     difference,
     pairs,
     pieces,
+    stretches,
     uncovered,
 )
 from foldmill_fabricate.verify.planned import Planned, at
+from foldmill_fabricate.verify.rows import prove_rows
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -35,12 +38,17 @@ def prove_creases(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
     drawn = [pieces([stroke.points for stroke in face]) for face in scores]
     wrong = _on_wrong_face(asked, drawn)
     whole = float(asked.lengths[asked.score_face != NOWHERE].sum())
+    score = asked.plan.material.score
     if whole and float(asked.lengths[wrong].sum()) >= tolerances.EXPLAINED * whole:
         return [*unassigned, _swapped(asked)]
     found = [_wrong_face(asked, edge) for edge in np.flatnonzero(wrong).tolist()]
     for face in (0, 1):
-        found += _uneven(asked, face, drawn[face], wrong)
+        if not isinstance(score, Perforation):
+            found += _missing(asked, face, drawn[face], wrong)
+        found += _too_much(asked, face, drawn[face], wrong)
         found += _stray(asked, face, drawn[face], scores[face], wrong)
+    if isinstance(score, Perforation):
+        found += prove_rows(asked, score, drawn[1], scores[1])
     return unassigned + found
 
 
@@ -55,6 +63,8 @@ def astray(asked: Asked, strokes: Sequence[Planned]) -> list[tuple[Face, bool, P
         required = _between(mine, most[:, 0], asked.lengths - most[:, 1])
         allowed = _between(mine, least[:, 0], asked.lengths - least[:, 1])
         lost, more = difference(along, required), difference(along, allowed)
+        if isinstance(asked.plan.material.score, Perforation):
+            lost = stretches(())  # a row has gaps; what is wrong with one is told in words
         found += [
             (name, True, asked.lines(mine), _marked(lost.take(lost.count < 0))),
             (name, False, asked.lines(mine), _marked(more.take(more.count > 0))),
@@ -88,11 +98,12 @@ def _coverage(asked: Asked, which: Flags, drawn: Pieces) -> tuple[Pairs, Stretch
 def _on_wrong_face(asked: Asked, drawn: Sequence[Pieces]) -> Flags:
     """Tell which edges are scored along most of their length on the face they do not belong on."""
     wrong = np.zeros(len(asked.lengths), bool)
+    usual = rows.share(asked.plan.material.score)
     for face in (0, 1):
         share = [np.zeros(len(wrong)), np.zeros(len(wrong))]
         for side in (0, 1):
             _, along = _coverage(asked, asked.score_face == face, drawn[side])
-            share[side] = along.total(len(wrong)) / asked.lengths
+            share[side] = along.total(len(wrong)) / asked.lengths / usual
         wrong |= (share[1 - face] > 0.5) & (share[face] < 0.5)
     return wrong
 
@@ -120,11 +131,11 @@ def _wrong_face(asked: Asked, edge: int) -> Finding:
     return _error("wrong-face", asked.name(edge), text)
 
 
-def _uneven(asked: Asked, face: int, drawn: Pieces, wrong: Flags) -> list[Finding]:
-    """Find creases of a face that are scored not at all, in part, twice, or into a vertex."""
+def _missing(asked: Asked, face: int, drawn: Pieces, wrong: Flags) -> list[Finding]:
+    """Find creases of a face that are scored not at all or in part."""
     mine = (asked.score_face == face) & ~wrong
     _, along = _coverage(asked, mine, drawn)
-    least, most = asked.setbacks
+    _, most = asked.setbacks
     found = []
     required = _between(mine, most[:, 0], asked.lengths - most[:, 1])
     for edge, low, high, _ in _long(difference(along, required), -1):
@@ -132,13 +143,22 @@ def _uneven(asked: Asked, face: int, drawn: Pieces, wrong: Flags) -> list[Findin
         part = "It is not scored" if whole else f"{high - low:.2f} mm of it are not scored"
         text = f"{part} on the {FACES[face]}."
         found.append(_error("missing-score", asked.name(edge), text))
+    return found
+
+
+def _too_much(asked: Asked, face: int, drawn: Pieces, wrong: Flags) -> list[Finding]:
+    """Find creases of a face that are scored twice, or into a vertex."""
+    mine = (asked.score_face == face) & ~wrong
+    _, along = _coverage(asked, mine, drawn)
+    least, _ = asked.setbacks
+    found = []
     allowed = _between(mine, least[:, 0], asked.lengths - least[:, 1])
     for edge, low, high, _ in _long(difference(along, allowed), 1):
         if least[edge, 0] < (low + high) / 2 < asked.lengths[edge] - least[edge, 1]:
             text = f"{high - low:.2f} mm of it are scored twice on the {FACES[face]}."
             found.append(_error("scored-twice", asked.name(edge), text))
         else:
-            setback = asked.plan.material.score.setback
+            setback = least[edge].max()
             text = f"Its score runs {high - low:.2f} mm into the setback of {setback:g} mm."
             found.append(_error("setback", asked.name(edge), text))
     return found

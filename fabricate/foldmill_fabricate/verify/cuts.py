@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from foldmill import Assignment
 from foldmill.finding import Finding, Severity
+from foldmill_fabricate.materials import ThroughCut
 from foldmill_fabricate.passes import Face, Role, Tie
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import Asked
@@ -137,24 +138,27 @@ def _uneven_finding(
 def _tie_findings(asked: Asked) -> list[Finding]:
     ties = asked.plan.ties
     found = []
+    cut = asked.plan.material.cut
     if not asked.rim.any():
         return [_error("no-outline", "pattern", "The pattern has no outline to cut.")]
+    if not isinstance(cut, ThroughCut):
+        text = f"The outline is made by {cut.title}; there is nothing for a tie to hold."
+        return [_error("ties-unasked", "outline", text)] if ties else []
     if len(ties) < LEAST_TIES:
         text = f"The outline has {len(ties)} ties; a part needs {LEAST_TIES} to stay in place."
         found.append(_error("too-few-ties", "outline", text))
     around = float(asked.lengths[asked.rim].sum())
-    usual = int(around / asked.plan.material.cut.tie_pitch)
+    usual = int(around / cut.tie_pitch)
     if LEAST_TIES <= len(ties) < usual:
         text = f"{len(ties)} ties hold an outline of {around:.0f} mm; {usual} are usual."
         found.append(Finding("few-ties", Severity.WARNING, "outline", text))
     corners = _corners(asked)
     for k, tie in enumerate(ties, 1):
-        found += _one_tie(asked, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
+        found += _one_tie(asked, cut, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
     return found
 
 
-def _one_tie(asked: Asked, tie: Tie, where: str, corners: Floats) -> list[Finding]:
-    cut = asked.plan.material.cut
+def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Floats) -> list[Finding]:
     bridge = _bridges(asked, asked.rim, [tie])
     standing = float(bridge.lengths.sum())
     if standing < tie.width - tolerances.UNEVEN_MM:

@@ -15,7 +15,7 @@ is wrong in the program becomes findings of the trace; nothing is raised."""
 
 
 def _hpgl(program: bytes, name: str, machine: Machine) -> Trace:
-    return interpret(program, name, selects=bool(machine.tools.score or machine.tools.cut))
+    return interpret(program, name, selects=machine.tools.selects)
 
 
 INTERPRETERS: Mapping[str, Interpreter] = MappingProxyType({"hpgl": _hpgl})

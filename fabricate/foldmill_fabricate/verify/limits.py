@@ -20,14 +20,15 @@ def outside(plan: Plan, name: str, trace: Trace) -> list[Finding]:
     refused = np.any((steps < low) | (steps > high), axis=1)
     text = f"{{}} is outside the machine's range of {low} to {high} steps"
     found += _first("outside-range", name, trace, refused, steps, text)
-    margin = machine.bed.margin
+    left, lead, right, trail = machine.bed.margins
     half_step = 0.5 / machine.axes.units_per_mm
     carrier = on_carrier(steps, machine.axes)
-    reach = np.array([sheet.carrier_width, sheet.carrier_height]) - margin
-    beyond = np.any((carrier < margin - half_step) | (carrier > reach + half_step), axis=1)
+    low_end = np.array([left, lead]) - half_step
+    high_end = np.array([sheet.carrier_width - right, sheet.carrier_height - trail]) + half_step
+    beyond = np.any((carrier < low_end) | (carrier > high_end), axis=1)
     text = (
         f"{{}} mm is not on the carrier of {sheet.carrier_width:g} × {sheet.carrier_height:g} mm "
-        f"with its margin of {margin:g} mm"
+        f"with its margins of {left:g}, {lead:g}, {right:g} and {trail:g} mm"
     )
     return found + _first("outside-carrier", name, trace, beyond & ~refused, carrier, text)
 

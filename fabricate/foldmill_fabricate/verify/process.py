@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from foldmill.finding import Finding, Severity
+from foldmill_fabricate.materials import Perforation, ThroughCut
 from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp
 from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 
@@ -12,11 +13,12 @@ _PROCESS = {
     Role.HOLE: "cut",
     Role.WITNESS: "score",
     Role.SCORE: "score",
+    Role.RELIEF: "cut",
     Role.CUT_INNER: "cut",
     Role.CUT_OUTER: "cut",
 }
 _FIRST = (Role.HOLE, Role.WITNESS)
-_LAST = (Role.CUT_INNER, Role.CUT_OUTER)
+_LAST = (Role.RELIEF, Role.CUT_INNER, Role.CUT_OUTER)
 _ORDER = list(Role)
 _SUPERFLUOUS = {
     Gate.FLIP: "The sheet is turned over here, and the face stays the same.",
@@ -71,6 +73,7 @@ def _plural(role: Role) -> str:
         Role.HOLE: "Holes",
         Role.WITNESS: "Witness marks",
         Role.SCORE: "Scores",
+        Role.RELIEF: "Relief holes",
         Role.CUT_INNER: "Inner cuts",
         Role.CUT_OUTER: "Outline cuts",
     }[role]
@@ -102,17 +105,46 @@ def _gate_findings(plan: Plan, setups: list[tuple[Face, SetUp]]) -> list[Finding
 
 def _depth_findings(plan: Plan) -> list[Finding]:
     """Check that a score leaves its web, and that a cut goes through."""
-    material = plan.material
-    most = material.thickness - material.score.web_min
-    found = []
-    if material.score.exposure > most:
+    material, score, cut = plan.material, plan.material.score, plan.material.cut
+    found = _offered(plan)
+    if isinstance(score, Perforation) and score.exposure < material.thickness:
+        text = f"The blade stands out {score.exposure:g} mm to perforate "
+        text += f"{material.thickness:g} mm of material."
+        found.append(_error("score-depth", material.slug, text))
+    most = material.thickness - score.web_min
+    if score.web_min and score.exposure > most:
         text = f"The blade stands out {material.score.exposure:g} mm for scores in "
         text += f"{material.thickness:g} mm of material; more than {most:g} mm cuts its web."
         found.append(_error("score-depth", material.slug, text))
-    if material.cut.exposure < material.thickness:
-        text = f"The blade stands out {material.cut.exposure:g} mm for cuts; the material is "
+    if isinstance(cut, ThroughCut) and cut.exposure < material.thickness:
+        text = f"The blade stands out {cut.exposure:g} mm for cuts; the material is "
         text += f"{material.thickness:g} mm thick."
         found.append(_error("cut-depth", material.slug, text))
+    if not isinstance(cut, ThroughCut):
+        found += _whole_sheet(plan)
+    return found
+
+
+def _offered(plan: Plan) -> list[Finding]:
+    """Check that the machine has what both processes take."""
+    return [
+        _error("not-offered", plan.machine.slug, f"This machine offers no {process.title}.")
+        for process in (plan.material.score, plan.material.cut)
+        if process.kind not in plan.machine.tools.stations
+    ]
+
+
+def _whole_sheet(plan: Plan) -> list[Finding]:
+    """Check that nothing is asked to go through the sheet where the tool does not."""
+    exposure, thickness = plan.material.cut.exposure, plan.material.thickness
+    found = []
+    if exposure >= thickness:
+        text = f"The blade stands out {exposure:g} mm for the outline, and the sheet is "
+        found.append(_error("cut-depth", plan.material.slug, f"{text}{thickness:g} mm thick."))
+    through = {op.role for side in plan.passes for s in side.setups for op in s.operations}
+    for role in sorted(through & {Role.HOLE, Role.RELIEF}):
+        text = f"{_plural(role)} go through the sheet; {plan.material.cut.title} does not."
+        found.append(_error("wrong-process", "plan", text))
     return found
 
 
@@ -125,9 +157,9 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
     tools = plan.machine.tools
     process = plan.material.score if setup.process == "score" else plan.material.cut
     wanted = {
-        "tool": (setup.tool, tools.score if setup.process == "score" else tools.cut),
+        "tool": (setup.tool, tools.stations.get(process.kind, 0)),
         "exposure": (setup.exposure, process.exposure),
-        "force": (setup.force, min(process.force, tools.max_force)),
+        "force": (setup.force, min(process.force, tools.max_force or 0.0)),
         "speed": (setup.speed, process.speed),
         "swivel force": (setup.swivel_force, _swivel_force(plan, setup)),
     }

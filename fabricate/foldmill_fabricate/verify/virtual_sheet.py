@@ -2,7 +2,8 @@
 
 The way there, for each point of the sheet (mm, front view): turned over with the sheet when it lies
 face down, shifted by where the blank lies on its carrier, for a fitted reverse turned and shifted
-as the sheet was found to lie, and last multiplied by the steps per mm. Derived here once more.
+as the sheet was found to lie, leant and scaled as the machine was calibrated, and last multiplied
+by the steps per mm. Derived here once more.
 """
 
 from __future__ import annotations
@@ -42,9 +43,12 @@ def modelled_offset(machine: Machine) -> float:
 
 
 def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:
-    """Turn machine steps (n, 2) into carrier coordinates, mm."""
+    """Turn machine steps (n, 2) into carrier coordinates, mm: its calibration undone."""
     mm = np.asarray(steps, float) / axes.units_per_mm
-    return mm[:, ::-1] if axes.swap else mm
+    seen = mm[:, ::-1] if axes.swap else mm
+    leant = np.array([[1.0, np.tan(np.radians(axes.skew))], [0.0, 1.0]])
+    undone: Floats = seen @ np.linalg.inv(np.diag([axes.scale_x, axes.scale_y]) @ leant).T
+    return undone
 
 
 def on_sheet(carrier: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:

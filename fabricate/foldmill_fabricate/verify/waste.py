@@ -113,16 +113,19 @@ def _hole_strokes(plan: Plan, strokes: Sequence[Planned]) -> list[Finding]:
 
 def _hole_of(plan: Plan, stroke: Planned) -> int | None:
     """Return the hole whose rim a stroke follows once around; None for none."""
-    for k, hole in enumerate(plan.holes):
-        arms = stroke.points - (hole.x, hole.y)
-        middles = (arms[1:] + arms[:-1]) / 2
-        radii = np.hypot(*np.vstack([arms, middles]).T)
-        cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
-        turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
-        is_round = _is_round(radii, hole.diameter / 2, modelled_offset(plan.machine))
-        if is_round and abs(turn - 2 * np.pi) < 1e-6 and stroke.closed:
-            return k
-    return None
+    offset = modelled_offset(plan.machine)
+    return next((k for k, hole in enumerate(plan.holes) if is_rim(stroke, hole, offset)), None)
+
+
+def is_rim(stroke: Planned, hole: Hole, offset: float) -> bool:
+    """Tell whether a stroke follows a hole's rim once around, as a blade of this offset can."""
+    arms = stroke.points - (hole.x, hole.y)
+    middles = (arms[1:] + arms[:-1]) / 2
+    radii = np.hypot(*np.vstack([arms, middles]).T)
+    cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
+    turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
+    is_round = _is_round(radii, hole.diameter / 2, offset)
+    return is_round and bool(abs(turn - 2 * np.pi) < 1e-6) and stroke.closed
 
 
 def _is_round(radii: Floats, radius: float, offset: float) -> bool:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from foldmill.axisymmetric.many import Task, has_slivers
 from foldmill.axisymmetric.rows import Rows
+from foldmill.batch import NOWHERE
 from foldmill.kernels import Limits, Strips
 from foldmill.tolerances import COINCIDENT_MM, ON_LINE
 from foldmill_plugins.six_crease.params import SixCreaseParams
@@ -48,12 +49,13 @@ def prepare(rows: Rows) -> Task | None:
             rows.table([f"points.{i}.branch" for i in numbers[2:]]),
             is_first_on_l2=False,
         ),
-        refused=np.broadcast_to(~is_rising | first.is_too_long, count),
+        refused=np.broadcast_to(~is_rising, count),
         unsure=np.broadcast_to(has_slivers(paper, farthest) | first.is_at_bound, count),
         sheet=np.stack(np.broadcast_arrays(wide, tall), axis=1),
         first=1,
         shape=_shape(rows, first.r, count),
         limits=_LIMITS,
+        lost=np.where(np.broadcast_to(first.is_too_long, count), 2, NOWHERE),
     )
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill import ImpossibleGeometry
+from foldmill import NoCandidate
 from foldmill.axisymmetric.strip import Paper, Side, meet, place
 from foldmill_plugins.six_crease.params import SixCreaseParams
 
@@ -32,7 +32,7 @@ def flat(params: SixCreaseParams) -> Floats:
 def meridian(params: SixCreaseParams, theta: float | None = None) -> Floats:
     """Return P_1 … P_T (T, 2) as (r, z), mm; theta : Θ' in rad, by default that of the tube.
 
-    Raises ImpossibleGeometry naming the first point without a place and by how much, and
+    Raises NoCandidate naming the first point without a place and by how much, and
     InvalidParameters where a γ is missing.
     """
     angle = wedge_angle(params) if theta is None else theta
@@ -105,8 +105,9 @@ def _steps(params: SixCreaseParams) -> list[tuple[int, Paper, Side]]:
 def _refuse_long(params: SixCreaseParams) -> None:
     bound = longest(params)
     if bound < params.L:
-        raise ImpossibleGeometry(
+        raise NoCandidate(
             f"Point 2 has no place: L = {params.L:g} mm is more than L_b = {bound:.6g} mm, the "
             f"most for φ = {params.phi:g}° ({params.L - bound:.3g} mm too many). Make L smaller, "
-            "or turn φ away from 90°."
+            "or turn φ away from 90°.",
+            point=2,
         )

@@ -51,23 +51,50 @@ class Corners:
 
 @dataclass(frozen=True, eq=False)
 class _Spheres:
-    """T − X = foot + τ·slope ± √(quadratic in τ)·normal, for S places of X."""
+    """T over the plane X P_i Q for S places of X: along X-P_i, across it, and above the plane.
 
-    foot: Floats
-    slope: Floats
+    Everything is measured from P_i and from the line X-P_i: T may lie as near to them as a sliver
+    of paper, and a difference of long lengths would lose it.
+    """
+
+    to_point: Floats
+    """(S, 3) P_i − X."""
+    length: Floats
+    """(S,) its length."""
+    one: Floats
+    """(S, 3) its direction."""
+    two: Floats
+    """(S, 3) across it, towards Q; zeros on the rim, where there is no Q."""
     normal: Floats
+    """(S, 3) above the plane."""
+    ahead: Floats
+    """(S,) p − x."""
+    beside: float
+    """p', the distance of p_i from the line."""
+    rest: Floats
+    second: Floats
+    """(S,) T is rest + τ·second across."""
 
     def squared_height(self, tau: Floats) -> Floats:
-        spot = self.foot + tau[:, None] * self.slope
-        length = lengths(spot)
-        square: Floats = (tau - length) * (tau + length)
+        """Return the square of T's height above the plane (S,)."""
+        apart, across = tau * self.beside / self.length, self.rest + tau * self.second
+        square: Floats = (apart - across) * (apart + across)
         return square
+
+    def step(self, tau: Floats, height: Floats) -> Floats:
+        """Return T − X (S, 3)."""
+        beyond = ((tau - self.ahead) * self.ahead - self.beside**2) / self.length
+        across = self.rest + tau * self.second
+        inside = self.to_point + beyond[:, None] * self.one + across[:, None] * self.two
+        step: Floats = inside + height[:, None] * self.normal
+        return step
 
     def reach(self) -> tuple[Floats, Floats]:
         """Return the interval (low, high) of τ in which T exists; it may be empty."""
-        a = 1 - np.einsum("si,si->s", self.slope, self.slope)
-        b = -2 * np.einsum("si,si->s", self.foot, self.slope)
-        c = -np.einsum("si,si->s", self.foot, self.foot)
+        slope = self.beside / self.length
+        a = (slope - self.second) * (slope + self.second)
+        b = -2 * self.rest * self.second
+        c = -self.rest * self.rest
         disc = b * b - 4 * a * c
         q = -(b + np.where(b < 0, -1.0, 1.0) * np.sqrt(np.maximum(disc, 0.0))) / 2
         one, two = q / a, np.where(q == 0, 0.0, c / q)
@@ -97,9 +124,8 @@ def place(blank: Blank, shares: Floats, sides: Floats, given: Sequence[float | N
             square = spheres.squared_height(t[:, j] - x)
             is_rim = _is_rim(blank, j)
             exists &= (t[:, j] > low[:, j]) & ((t[:, j] < high[:, j]) | is_rim) & (square >= 0)
-            step = spheres.foot + (t[:, j] - x)[:, None] * spheres.slope
             height = (1.0 if is_rim and j else sides[:, j]) * np.sqrt(square)
-            spots[:, j] = spot + step + height[:, None] * spheres.normal
+            spots[:, j] = spot + spheres.step(t[:, j] - x, height)
             x, spot = t[:, j], spots[:, j]
     return Corners(t, spots, sides, low, high, exists & np.isfinite(spots).all(axis=(1, 2)))
 
@@ -129,19 +155,20 @@ def _spheres(blank: Blank, j: int, x: Floats, spot: Floats) -> _Spheres:
     to_point = blank.spatial[j + 1] - spot
     reach = lengths(to_point)
     one = to_point / reach[:, None]
-    first = (blank.feet[j + 1] - x) / reach
+    ahead, beside = blank.feet[j + 1] - x, float(blank.beside[j + 1])
     if _is_rim(blank, j):
-        return _Spheres(np.zeros_like(spot), first[:, None] * one, _rim_normal(blank, j, spot, one))
+        two, none = np.zeros_like(spot), np.zeros(len(spot))
+        normal = _rim_normal(blank, j, spot, one)
+        return _Spheres(to_point, reach, one, two, normal, ahead, beside, none, none)
     to_next = blank.spatial[j + 2] - spot
     two = _unit(to_next - np.einsum("si,si->s", to_next, one)[:, None] * one)
     part_one = np.einsum("si,si->s", to_next, one)
     part_two = np.einsum("si,si->s", to_next, two)
-    ahead = blank.feet[j + 2] - x
-    spare = (np.einsum("si,si->s", to_next, to_next) - ahead**2 - blank.beside[j + 2] ** 2) / 2
-    second = (ahead - first * part_one) / part_two
-    slope = first[:, None] * one + second[:, None] * two
+    far = blank.feet[j + 2] - x
+    spare = (np.einsum("si,si->s", to_next, to_next) - far**2 - blank.beside[j + 2] ** 2) / 2
+    rest, second = spare / part_two, (far - ahead / reach * part_one) / part_two
     normal = np.broadcast_to(blank.across, one.shape) if j == 0 else cross(one, two)
-    return _Spheres((spare / part_two)[:, None] * two, slope, normal)
+    return _Spheres(to_point, reach, one, two, normal, ahead, beside, rest, second)
 
 
 def _rim_normal(blank: Blank, j: int, spot: Floats, one: Floats) -> Floats:

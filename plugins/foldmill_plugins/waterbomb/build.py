@@ -9,15 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_plugins.waterbomb.base import Offsets, base_mesh, closed_topology
+from foldmill_plugins.waterbomb.contact import Clashes
 from foldmill_plugins.waterbomb.curvature import flat_metric
+from foldmill_plugins.waterbomb.fit import Fitted, fitted
 from foldmill_plugins.waterbomb.jacobian import Stars
+from foldmill_plugins.waterbomb.kawasaki import FlatFoldable
 from foldmill_plugins.waterbomb.metric import Start, closed_form
 from foldmill_plugins.waterbomb.nested import halved, transferred
+from foldmill_plugins.waterbomb.objective import Objective
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.sector import Sector
-from foldmill_plugins.waterbomb.solve import Developed, develop
+from foldmill_plugins.waterbomb.solve import Conditions, Developed, develop
 from foldmill_plugins.waterbomb.surfaces import Surface
 from foldmill_plugins.waterbomb.topology import Topology
+from foldmill_plugins.waterbomb.unknowns import Unknowns
 
 Floats = NDArray[np.float64]
 
@@ -104,13 +109,59 @@ class Build:
 
     @cached_property
     def developed(self) -> Developed:
+        """The mesh in the end: after the search, and after the fit where one is asked for."""
+        if self.fit is None:
+            return self.plain
+        exact = self.fit.developed
+        return replace(
+            self.plain,
+            points=exact.points,
+            errors=(*self.plain.errors[:-1], exact.error),
+            extremes=(*self.plain.extremes[:-1], exact.extremes[-1]),
+        )
+
+    @cached_property
+    def fit(self) -> Fitted | None:
+        """The mesh after the fit; None where none is asked for, or there is nothing to fit."""
+        options = self.params.fit
+        if not (options.on and self.plain.is_converged):
+            return None
+        unknowns = self.unknowns
+        objective = Objective.of(
+            self.surface, self.topology, self.side, unknowns, self.plain.points, options
+        )
+        clashes = Clashes.of(self.topology, is_symmetric=self.is_symmetric)
+        return fitted(objective, clashes, E_TOTAL, options.iterations)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether every base of a strip is like the next one, turned about the axis."""
+        return self.surface.is_revolution and self.topology.is_u_closed
+
+    @cached_property
+    def unknowns(self) -> Unknowns:
+        """What a fit may move."""
+        is_free = self.params.fit.boundary == "free"
+        stars = Stars.of(self.topology, is_boundary_free=is_free)
+        if self.is_symmetric:
+            return Unknowns.by_orbit(Sector.of(self.topology, stars, self.base))
+        return Unknowns.of(self.conditions_on(stars), stars.is_free)
+
+    @cached_property
+    def plain(self) -> Developed:
         """The mesh after the search: a large one by its sector, or begun by a coarser one."""
         if self.params.n_u * self.params.n_v > MANY:
             if self.surface.is_revolution and self.topology.is_u_closed:
                 return self._by_sector()
             if self.start == "uniform":
                 return develop(self.stars, self._begun_by_a_coarser(), E_TOTAL, MOST_ITERATIONS)
-        return develop(self.stars, self.base, E_TOTAL, MOST_ITERATIONS)
+        sums = len(self.stars.centre)
+        return develop(self.conditions_on(self.stars), self.base, E_TOTAL, MOST_ITERATIONS, sums)
+
+    def conditions_on(self, stars: Stars) -> Conditions:
+        """Return what the search must keep: developability, and flat-foldability if wanted."""
+        wants_more = self.params.flat_foldable and not self.is_symmetric
+        return FlatFoldable(stars) if wants_more else stars
 
     def _by_sector(self) -> Developed:
         sector = Sector.of(self.topology, self.stars, self.base)

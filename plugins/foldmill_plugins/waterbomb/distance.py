@@ -69,6 +69,10 @@ class Target:
 
     def distances(self, points: Floats) -> Floats:
         """Return the distance (n,) of points (n, 3) from the target."""
+        return self.projected(points)[1]
+
+    def projected(self, points: Floats) -> tuple[Floats, Floats]:
+        """Return u, v (n, 2) of the nearest places of the target, and how far (n,) they are."""
         from scipy.spatial import cKDTree
 
         found = cKDTree(self.samples).query(points)
@@ -82,7 +86,7 @@ class Target:
             active = active[(change > ENOUGH).any(axis=1)]
             if not len(active):
                 break
-        return far
+        return spots, far
 
     @property
     def _extent(self) -> Floats:

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from foldmill import Assignment, CreasePattern, Fold, FoldedForm, ImpossibleGeometry, Symmetry
 from foldmill.check.penetration import penetrating_faces
 from foldmill.folded import fold_pattern
-from foldmill_plugins.waterbomb import feasibility, simple, status
+from foldmill_plugins.waterbomb import feasibility, pieces, simple, status
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.convergence import steps
 from foldmill_plugins.waterbomb.distance import Target
+from foldmill_plugins.waterbomb.fit import went
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.status import Status
 from foldmill_plugins.waterbomb.topology import Indices, Topology
@@ -35,7 +36,7 @@ def generate(params: WaterbombParams) -> Fold:
     build = Build(params)
     require_converged(build)
     cut = build.topology.opened()
-    solid = _from_zero(build, build.developed.points[build.topology.origin])
+    solid = from_zero(build, build.developed.points[build.topology.origin])
     flat = unfold(cut, solid)
     _require_isometric(cut, solid, flat)
     scale = _scale(params, flat)
@@ -49,11 +50,13 @@ def generate(params: WaterbombParams) -> Fold:
         len(penetrating_faces(fold, form)),
         simple.is_simple(cut, flat),
     )
-    return replace(
+    fold = replace(
         fold,
         findings=(*feasibility.findings(build), *status.findings(pattern, cut.assignments, state)),
         meta=_facts(build, state, scale),
     )
+    whole = pieces.Whole(fold, cut, build.topology.origin)
+    return fold if params.pieces.is_whole else pieces.one_of(whole, params.pieces, state)
 
 
 def require_converged(build: Build) -> None:
@@ -85,6 +88,12 @@ def _require_isometric(cut: Topology, solid: Floats, flat: Floats) -> None:
     )
 
 
+def mm_per_unit(build: Build) -> float:
+    """Return by how much the target is enlarged, so that its sheet is as large as asked for."""
+    solid = build.developed.points[build.topology.origin]
+    return _scale(build.params, unfold(build.topology.opened(), solid))
+
+
 def _scale(params: WaterbombParams, flat: Floats) -> float:
     """Return mm per unit of the target."""
     width, height = np.ptp(flat, axis=0)
@@ -107,15 +116,10 @@ def _fold_pattern(
 
 def seams(topology: Topology) -> Indices:
     """Return the pairs (S, 2) of vertices of the opened topology that are one in space."""
-    origin = topology.origin
-    order = np.argsort(origin, kind="stable")
-    first = np.concatenate([[True], np.diff(origin[order]) > 0])
-    leader = order[np.maximum.accumulate(np.where(first, np.arange(len(order)), 0))]
-    pairs: Indices = np.column_stack([leader[~first], order[~first]])
-    return pairs
+    return pieces.twins(topology.origin)
 
 
-def _from_zero(build: Build, solid: Floats) -> Floats:
+def from_zero(build: Build, solid: Floats) -> Floats:
     """Turn a form round a surface of revolution so that its seam is at azimuth 0."""
     if not build.surface.is_revolution:
         return solid
@@ -144,11 +148,12 @@ def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
     found, target = build.developed, Target.of(build.surface)
     away = target.distances(found.points) / target.diagonal
     return {
-        "status": {"verdicts": list(state.verdicts), **vars(state)},
+        "status": state.facts(),
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
         "feasibility": feasibility.promised(build),
         "convergence": steps(found),
+        **({} if build.fit is None else {"fit": went(build.fit)}),
         "distance": {"mean": float(away.mean()), "largest": float(away.max())},
         "mm_per_unit": scale,
     }

@@ -7,6 +7,11 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from foldmill import Count, Length, Params
+from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
+from foldmill_plugins.waterbomb.height_field import HeightField
+from foldmill_plugins.waterbomb.mesh_surface import MeshSurface
+from foldmill_plugins.waterbomb.options import FitOptions, Wanted
+from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.surfaces import TABLE, Surface
 
 Name = Literal[
@@ -34,7 +39,9 @@ class TableSurface(Params):
         return TABLE[self.kind]
 
 
-AnySurface = TableSurface
+AnySurface = Annotated[
+    TableSurface | ExpressionSurface | HeightField | MeshSurface, Field(discriminator="kind")
+]
 """Every kind of target, told apart by its ``kind``."""
 
 
@@ -88,11 +95,20 @@ class WaterbombParams(Params):
     """Whether the vertices of the boundary move in the search."""
     rim: Literal["inside", "outside"] = "inside"
     """Whether the first and the last ring slide within the range of v only, or beyond it too."""
+    flat_foldable: bool = False
+    """Whether every vertex must be able to fold flat by itself: every other angle adds up to 180°.
+    Tessellations round an axis are so anyhow."""
+    fit: FitOptions = Field(default_factory=FitOptions)
+    """How the form is brought closer to the target once it is developable."""
+    wanted: Wanted = Field(default_factory=Wanted)
+    """What the report on density chooses n_u and n_v for; the form itself does not depend on it."""
     size: Length = Field(default=400.0, ge=10, le=10_000)
     """Size of what `sized` says."""
     sized: Literal["sheet", "width", "height", "unit"] = "sheet"
     """What is as long as `size`: the larger side of the flat sheet, its width, its height, or one
     unit of the target."""
+    pieces: Pieces = Field(default_factory=Pieces)
+    """Into how many sheets the form is cut, and which of them this is."""
 
     @model_validator(mode="after")
     def _few_enough(self) -> WaterbombParams:

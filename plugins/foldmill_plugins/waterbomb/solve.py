@@ -66,10 +66,13 @@ class Developed:
         return self.error <= self.tolerance
 
 
-def develop(stars: Conditions, points: Floats, tolerance: float, most: int) -> Developed:
+def develop(
+    stars: Conditions, points: Floats, tolerance: float, most: int, sums: int | None = None
+) -> Developed:
     """Return the developable mesh nearest to the base mesh points (V, 3), step by step.
 
-    tolerance : deg, of e_total; most : iterations. Never raises for a search that fails.
+    tolerance : deg, of e_total; most : iterations; sums : how many of the conditions are angle
+    sums, left out where all are. Never raises for a search that fails.
     """
     solver = Factorised()
     errors, extremes = [], []
@@ -77,7 +80,7 @@ def develop(stars: Conditions, points: Floats, tolerance: float, most: int) -> D
     for _ in range(most + 1):
         residual, jacobian = stars.linearised(points)
         errors.append(e_total(residual))
-        extremes.append(_extremes(residual))
+        extremes.append(_extremes(residual[:sums]))
         if errors[-1] <= tolerance or len(errors) > most:
             break
         moved, damping = _step(stars, points, residual, jacobian, solver, damping)

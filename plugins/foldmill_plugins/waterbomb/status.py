@@ -8,6 +8,7 @@ lies upon itself.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from foldmill import Assignment, CreasePattern
 from foldmill.finding import Finding, Severity
@@ -39,6 +40,10 @@ class Status:
         )
         return tuple(name for name, failed in named if failed) or ("ok",)
 
+    def facts(self) -> dict[str, Any]:
+        """Return verdicts and figures, for files and people."""
+        return {"verdicts": list(self.verdicts), **vars(self)}
+
 
 def wrong_signed(pattern: CreasePattern, wanted: Codes) -> list[int]:
     """Return the creases (edges) whose assignment is another than a waterbomb's, wanted (E,)."""
@@ -47,10 +52,25 @@ def wrong_signed(pattern: CreasePattern, wanted: Codes) -> list[int]:
 
 def findings(pattern: CreasePattern, wanted: Codes, state: Status) -> tuple[Finding, ...]:
     """Return what no general check can tell as well: wrong signs, and a sheet upon itself."""
-    return (*_signs(pattern, wanted), *_overlap(state))
+    return (*_signs(pattern, wanted), *overlap(state))
 
 
-def _overlap(state: Status) -> tuple[Finding, ...]:
+def through(state: Status) -> tuple[Finding, ...]:
+    """Return that the whole form passes through itself, which no single piece of it shows."""
+    if not state.penetrations:
+        return ()
+    finding = Finding(
+        "penetration",
+        Severity.ERROR,
+        "the whole form",
+        f"Put together, the form passes through itself: {state.penetrations} pairs of facets.",
+        "Choose other parameters; no sheets can be put together like this.",
+    )
+    return (finding,)
+
+
+def overlap(state: Status) -> tuple[Finding, ...]:
+    """Return that the sheet lies upon itself, where it does."""
     if state.is_flat_simple:
         return ()
     finding = Finding(
@@ -58,7 +78,7 @@ def _overlap(state: Status) -> tuple[Finding, ...]:
         Severity.ERROR,
         "outline",
         "The form is developable, but laid flat its sheet lies upon itself.",
-        "Take another depth, or make only a part of the target.",
+        "Cut it into pieces, such as --pieces.columns 2, or take another depth.",
     )
     return (finding,)
 

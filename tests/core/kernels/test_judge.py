@@ -15,7 +15,17 @@ from numpy.typing import NDArray
 
 from foldmill import InvalidInput
 from foldmill.check.intersection import penetrations
-from foldmill.kernels import CODES, SWITCH, Limits, Strips, Verdicts, columns, is_compiling, judge
+from foldmill.kernels import (
+    CODES,
+    SWITCH,
+    Limits,
+    Strips,
+    Verdicts,
+    columns,
+    is_compiling,
+    judge,
+    tables,
+)
 from foldmill.kernels import jit as shim
 from foldmill.kernels import strips as ready
 from foldmill.kernels.tables import judge_with, wheels
@@ -83,7 +93,14 @@ def test_compiled_and_over_columns_are_one_on_many_blocks_of_rows() -> None:
     assert_alike(found, judge_with(columns.judge, strips, Limits()))
 
 
+@pytest.fixture(params=[0, tables.COMPILED_FROM])
+def both(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Judge few strips compiled, and then over columns."""
+    monkeypatch.setattr(tables, "COMPILED_FROM", request.param)
+
+
 def test_without_numba_the_columns_are_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tables, "COMPILED_FROM", 0)
     strips = tubes(50, 5)
     usual = judge(strips)
     monkeypatch.setenv(SWITCH, "1")
@@ -91,6 +108,7 @@ def test_without_numba_the_columns_are_used(monkeypatch: pytest.MonkeyPatch) -> 
     assert_alike(usual, judge(strips))
 
 
+@pytest.mark.usefixtures("both")
 def test_the_mirror_image_of_a_strip_meets_the_same_end() -> None:
     strips = tubes(4000, 6)
     image = Strips(
@@ -103,6 +121,7 @@ def test_the_mirror_image_of_a_strip_meets_the_same_end() -> None:
     assert_alike(judge(strips), judge(image))
 
 
+@pytest.mark.usefixtures("both")
 def test_a_strip_shifted_along_the_axis_meets_the_same_end() -> None:
     strips = tubes(4000, 7)
     shifted = strips.start + np.array([0, 37.5, 0, 37.5])
@@ -110,6 +129,7 @@ def test_a_strip_shifted_along_the_axis_meets_the_same_end() -> None:
     assert_alike(judge(strips), judge(image))
 
 
+@pytest.mark.usefixtures("both")
 def test_some_of_the_strips_are_judged_as_among_all() -> None:
     strips = tubes(300, 8)
     some = np.array([5, 250, 17, 17])
@@ -169,6 +189,7 @@ def test_where_facets_touch_or_meet_along_a_crease_the_kernels_say_what_the_chec
     assert np.array_equal(codes == CODES.PENETRATES, verdicts)
 
 
+@pytest.mark.usefixtures("both")
 def test_two_circles_that_are_one_are_reported_and_not_guessed() -> None:
     # Point 2 stands square over point 0: c = 0, and the foot of point 1 on Π1 is point 0 itself.
     theta = np.pi / 6
@@ -186,8 +207,27 @@ def test_arrays_that_do_not_belong_together_are_refused() -> None:
         Strips(strips.order, strips.start, strips.paper, strips.branches[:3], is_first_on_l2=False)
 
 
-def test_families_are_imported_without_numba() -> None:
-    code = "import foldmill_plugins.six_crease, sys; sys.exit('numba' in sys.modules)"
+@NEEDS_NUMBA
+def test_few_that_are_left_of_many_configurations_are_judged_as_the_many(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    used: list[str] = []
+    monkeypatch.setattr(tables, "judge_with", lambda loop, *_: used.append(loop.__module__))
+    strips = tubes(20, 11)
+    judge(strips)
+    judge(strips, among=tables.COMPILED_FROM)
+    assert [each.rpartition(".")[2] for each in used] == ["columns", "strips"]
+
+
+def test_few_configurations_are_judged_without_numba() -> None:
+    code = """if True:
+        import sys
+        import numpy as np
+        from foldmill.configurations import outcomes
+        from foldmill_plugins.six_crease import DESIGN
+        found = outcomes(DESIGN, DESIGN.preset("vase"), {"beta": np.linspace(0, 359, 2000)})
+        sys.exit("numba" in sys.modules or len(set(found.codes.tolist())) < 3)
+    """
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

@@ -96,6 +96,28 @@ def test_a_form_that_penetrates_is_written_only_by_force_and_then_marked(foldmil
     assert foldmill("plan", "bad.fold", "-o", "job", "--unassigned", "skip").code == 1
 
 
+@pytest.mark.parametrize("suffix", ["svg", "glb", "stl", "obj", "fold"])
+def test_whatever_file_a_form_that_does_not_fold_goes_into_says_so(
+    foldmill: Run, suffix: str
+) -> None:
+    name = f"bad.{suffix}"
+    words = ("design", "rotational", "--preset", "bowl-n8", "--phi", "30", "-o", name)
+    assert foldmill(*words).code == 1
+    assert not Path(name).exists()
+    assert foldmill(*words, "--force").code == 1
+    said = b"foldmill:errors" if suffix == "fold" else b"DOES NOT FOLD: penetration"
+    assert said in Path(name).read_bytes()
+
+
+def test_a_form_that_does_not_fold_is_moved_only_when_that_is_wanted(foldmill: Run) -> None:
+    words = ("motion", "rotational", "--preset", "bowl-n8", "--phi", "30", "--steps", "2", "-o")
+    refused = foldmill(*words, "bad.fold")
+    assert (refused.code, Path("bad.fold").exists()) == (1, False)
+    assert "passes through itself" in refused.out
+    assert foldmill(*words, "bad.fold", "--force").code == 0
+    assert json.loads(Path("bad.fold").read_text())["foldmill:errors"] == ["penetration"]
+
+
 def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
     told = foldmill("design", "tuck", "--help").out
     assert "--points.3.a" in told

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from foldmill_fabricate.cli import main
+from foldmill_fabricate.cli.progress import SweepProgress
 
 SWEEP = ("explore", "rotational", "--vary", "phi=30:90:5", "--jobs", "1")
 
@@ -83,6 +84,20 @@ def test_a_sweep_is_resumed_from_its_folder(foldmill: Run) -> None:
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
 
 
+def test_a_sweep_that_is_broken_off_ends_with_where_it_is_kept(
+    foldmill: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(told: SweepProgress, done: int, rows: int) -> None:
+        if done:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(SweepProgress, "__call__", interrupted)
+    told = foldmill("explore", "tuck", *SWEEP[2:3], "phi=80:100:1", "--jobs", "1", "--resume", "k")
+    assert told.code == 130
+    assert "Broken off. 1 of 2 chunks were done" in told.err
+    assert f"kept in {Path('k') / 'tuck'}" in told.err
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -95,6 +110,15 @@ def test_a_sweep_is_resumed_from_its_folder(foldmill: Run) -> None:
         ([*SWEEP, "--pick", "13:a.fold"], "There is no row 13: the rows are 0 to 12"),
         ([*SWEEP, "--pick", "region9:a.fold"], "There is no region9"),
         ([*SWEEP, "--pick", "best:a.fold"], "'best' is neither a row's number nor regionK"),
+        ([*SWEEP, "--picture", "a.png", "--thumbnail", "999"], "There is no row 999: the rows are"),
+        ([*SWEEP, "--picture", "a.png", "--thumbnail", "top"], "'top' is neither a row's number"),
+        ([*SWEEP, "--thumbnail", "3"], "--thumbnail shows a form beside the map: name it"),
+        ([*SWEEP, "-o", "full/a.csv"], "full/a.csv: not a directory"),
+        ([*SWEEP, "--picture", "full/of/a.png"], "full/of/a.png: not a directory"),
+        ([*SWEEP, "--pick", "3:full/a.stl"], "full/a.stl: not a directory"),
+        ([*SWEEP, "--resume", "full"], "full/kept: not a directory"),
+        ([*SWEEP, "-o", "folder.csv"], "folder.csv: is a directory"),
+        ([*SWEEP, "--phi", "40"], "--phi 40 and --vary phi=… contradict each other"),
         ([*SWEEP, "--scheduler", "tcp://127.0.0.1:9"], "--jobs counts processes here"),
         ([*SWEEP[:-1], "0"], "0 processes compute nothing"),
         ([*SWEEP, "--at-most", "12"], "13 rows, more than 12"),
@@ -103,10 +127,13 @@ def test_a_sweep_is_resumed_from_its_folder(foldmill: Run) -> None:
 def test_what_means_nothing_is_refused_with_a_sentence(
     foldmill: Run, words: list[str], sentence: str
 ) -> None:
+    Path("full").write_text("a file, no folder")
+    Path("folder.csv").mkdir()
     told = foldmill(*words)
     assert told.code == 2
     assert sentence in told.err
     assert "Traceback" not in told.err
+    assert ("13 configurations" in told.err) == ("region9" in sentence)
     assert list(Path().glob("*.fold")) == []
 
 
@@ -121,6 +148,15 @@ def commands() -> list[list[str]]:
     page = Path(__file__).parents[3] / "docs" / "explore.md"
     lines = [line.strip() for line in page.read_text("utf-8").splitlines()]
     return [line.split()[1:] for line in lines if line.startswith("foldmill explore ")]
+
+
+def test_the_picks_of_the_page_are_written(foldmill: Run) -> None:
+    (words,) = (words for words in commands() if "--pick" in words)
+    told = foldmill(*words, "--jobs", "1")
+    assert told.code == 0
+    files = [word.split(":")[1] for word in words if word.endswith((".fold", ".glb"))]
+    assert len(files) == 2
+    assert all(Path(file).stat().st_size for file in files)
 
 
 @pytest.mark.parametrize("words", commands())

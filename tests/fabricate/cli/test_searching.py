@@ -107,6 +107,21 @@ def test_wrong_input_is_one_sentence_and_exit_code_two(
     assert not out
 
 
+def test_a_seat_is_refused_at_once_where_no_form_has_one(foldmill: Foldmill) -> None:
+    code, _, err = foldmill("search", "six-crease", "--target", "seat=120", "--preset", "ball")
+    assert code == 2
+    assert err.startswith("foldmill: No form of six-crease to start from has a seat")
+
+
+def test_a_number_of_wedges_that_is_refused_is_refused_alone(foldmill: Foldmill) -> None:
+    for order in ("2", "0", "-5"):
+        words = ("--target", "height=150", "--preset", "stool-n8", "--n", order)
+        code, _, err = foldmill("search", "tuck", *words)
+        assert code == 2
+        assert f"n must be at least 3, not {order}" in err
+        assert "points" not in err
+
+
 def test_an_unknown_family_tells_those_there_are(foldmill: Foldmill) -> None:
     code, _, err = foldmill("search", "bowl", "--target", "height=80")
     assert code == 2

@@ -31,35 +31,57 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
     at, env = tmp_path_factory.mktemp("cluster"), clusters.whole()
     with (
         clusters.scheduler(at, env) as address,
-        clusters.worker(address, "one", at, env),
+        clusters.starting(address, "one", at, env),
         clusters.worker(address, "two", at, env),
     ):
         yield Cluster(address)
 
 
 @pytest.fixture(scope="module")
-def here() -> bytes:
-    """The table as one process of this machine makes it."""
-    return csv(swept(Local(1)))
+def empty(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The address of a scheduler that has no worker of its own."""
+    with clusters.scheduler(tmp_path_factory.mktemp("empty"), clusters.whole()) as address:
+        yield address
+
+
+@pytest.fixture(scope="module")
+def near() -> Sweep[RotationalParams]:
+    """The bowls as one process of this machine makes them."""
+    return swept(Local(1))
+
+
+@pytest.fixture(scope="module")
+def here(near: Sweep[RotationalParams]) -> bytes:
+    """Their table."""
+    return csv(near)
+
+
+@pytest.fixture(scope="module")
+def there(cluster: Cluster) -> Sweep[RotationalParams]:
+    """The bowls as the cluster makes them."""
+    return swept(cluster)
 
 
 def swept(engine: Cluster | Local) -> Sweep[RotationalParams]:
     return explore(BOWL, BOWL.preset("bowl-n8"), PHI, engine)
 
 
-def test_a_cluster_gives_the_bytes_that_this_machine_gives(cluster: Cluster, here: bytes) -> None:
-    there = swept(cluster)
+def test_a_cluster_gives_the_bytes_that_this_machine_gives(
+    cluster: Cluster, there: Sweep[RotationalParams], here: bytes
+) -> None:
     assert len(there) == 51
     assert csv(there) == here
     tube = (TUBE, TUBE.preset("vase"), [Range.read("beta=40:80:2")])
     assert csv(explore(*tube, cluster)) == csv(explore(*tube, Local(1)))
 
 
-def test_parquet_from_a_cluster_is_byte_by_byte_the_same(cluster: Cluster) -> None:
+def test_parquet_from_a_cluster_is_byte_by_byte_the_same(
+    near: Sweep[RotationalParams], there: Sweep[RotationalParams]
+) -> None:
     pytest.importorskip("pyarrow")
     from foldmill_fabricate.explore import parquet
 
-    assert parquet(swept(cluster)) == parquet(swept(Local(1)))
+    assert parquet(there) == parquet(near)
 
 
 def resting() -> Design[RotationalParams]:
@@ -105,15 +127,14 @@ def test_a_worker_that_is_lost_on_the_way_takes_no_row_with_it(
 
 
 def test_a_cluster_that_loses_its_last_worker_ends_the_sweep_and_keeps_what_is_done(
-    here: bytes, tmp_path: Path
+    empty: str, here: bytes, tmp_path: Path
 ) -> None:
-    env, kept, bowl = clusters.whole(), tmp_path / "kept", BOWL.preset("bowl-n8")
+    kept, bowl = tmp_path / "kept", BOWL.preset("bowl-n8")
     with (
-        clusters.scheduler(tmp_path, env) as address,
-        clusters.worker(address, "only", tmp_path, env),
-        pytest.raises(EngineFailed, match=r"has had no worker for 3 s\."),
+        clusters.worker(empty, "only", tmp_path, clusters.whole()),
+        pytest.raises(EngineFailed, match=r"has had no worker for 1 s\."),
     ):
-        explore(lethal(), bowl, PHI, Cluster(address, patience_s=3), resume=kept)
+        explore(lethal(), bowl, PHI, Cluster(empty, patience_s=1), resume=kept)
     assert csv(explore(BOWL, bowl, PHI, Local(1), resume=kept)) == here
 
 
@@ -139,18 +160,18 @@ def test_a_worker_with_another_version_is_named_with_both_versions(
         swept(cluster)
 
 
-def test_a_scheduler_without_workers_and_one_without_the_package_are_told_apart(
-    tmp_path: Path,
-) -> None:
-    env = clusters.bare(tmp_path / "packages")
-    with clusters.scheduler(tmp_path, env) as address:
-        with pytest.raises(EngineFailed, match=r"has no workers, not even after 1 s"):
-            swept(Cluster(address, patience_s=1))
-        with (
-            clusters.worker(address, "sound", tmp_path, clusters.whole()),
-            pytest.raises(EngineFailed, match="no foldmill on the scheduler"),
-        ):
-            swept(Cluster(address))
+def test_a_scheduler_without_workers_is_told_from_one_that_does_not_answer(empty: str) -> None:
+    with pytest.raises(EngineFailed, match=r"has no workers, not even after 0\.5 s"):
+        swept(Cluster(empty, patience_s=0.5))
+
+
+def test_a_scheduler_without_the_package_is_named(tmp_path: Path) -> None:
+    with (
+        clusters.scheduler(tmp_path, clusters.bare(tmp_path / "packages")) as address,
+        clusters.starting(address, "sound", tmp_path, clusters.whole()),
+        pytest.raises(EngineFailed, match="no foldmill on the scheduler"),
+    ):
+        swept(Cluster(address, patience_s=30))
 
 
 def test_where_no_scheduler_answers_a_sentence_says_so() -> None:

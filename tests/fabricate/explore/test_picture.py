@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import io
+import re
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,13 +9,16 @@ import pytest
 from PIL import Image
 
 from foldmill import Outcome
+from foldmill.configurations import with_values
 from foldmill_fabricate.errors import CannotExplore
 from foldmill_fabricate.explore import FAULT, Local, Range, Sweep, explore
 from foldmill_fabricate.explore.picture import LOOKS, sweep_picture
-from foldmill_fabricate.explore.view import THUMBNAILS, thumbnails, view
+from foldmill_fabricate.explore.stated import stated
+from foldmill_fabricate.explore.view import APART, THUMBNAILS, thumbnails, view
 from foldmill_plugins.rotational import DESIGN as BOWL
 from foldmill_plugins.rotational import RotationalParams
 
+TEXTS = re.compile(rb"<!--(.*?)-->")
 Bowls = Sweep[RotationalParams]
 
 
@@ -82,7 +86,7 @@ def test_the_forms_beside_it_are_free_different_and_among_them_the_centre(maps: 
 
 
 def test_one_parameter_makes_a_strip() -> None:
-    content = sweep_picture(bowls("phi=40:110:10"))
+    content = sweep_picture(bowls("phi=40:110:10"), forms=[0])
     assert Image.open(io.BytesIO(content)).size[0] > 1000
 
 
@@ -97,3 +101,45 @@ def test_a_row_without_a_form_is_no_thumbnail() -> None:
         sweep_picture(sweep, forms=[2])
     with pytest.raises(CannotExplore, match="13 thumbnails do not fit"):
         thumbnails(view(sweep), [0] * 13)
+
+
+@pytest.fixture(scope="module")
+def orders() -> Bowls:
+    """A map with a count as axis, between whose values nothing lies."""
+    return bowls("phi=60:110:2.5", "n=3:24:1")
+
+
+def test_a_count_has_ticks_at_whole_numbers(orders: Bowls) -> None:
+    said = b"".join(sweep_picture(orders, ".svg", [0]).split())
+    ticks = [text for text in TEXTS.findall(said) if re.fullmatch(rb"[\d.]+", text)]
+    assert {b"3", b"5", b"23"} <= set(ticks)
+    assert not [tick for tick in ticks if b"." in tick and not tick.endswith(b".0")]
+
+
+def test_forms_beside_a_map_over_a_count_are_far_apart(orders: Bowls) -> None:
+    assert len(orders.regions) > 8
+    places = np.stack(np.unravel_index(thumbnails(view(orders)), orders.grid.shape))
+    places = places.T / np.array(orders.grid.shape)
+    gaps = np.linalg.norm(places[:, None] - places, axis=2)
+    assert len(gaps) == THUMBNAILS
+    assert np.ptp(places, axis=0).min() > 0.7
+    assert gaps[np.triu_indices(len(gaps), 1)].min() >= APART
+
+
+def test_the_title_tells_the_preset_and_what_is_stated_beside_it() -> None:
+    base = with_values(BOWL, BOWL.preset("crown-n6"), {"points.4.a": 87.5, "slit": True, "phi": 20})
+    sweep = explore(BOWL, base, [Range.read("phi=80:90:10")], Local(1))
+    assert stated(sweep) == "crown-n6, points.4.a = 87.5 mm, slit = true"
+    assert b"crown-n6, points.4.a = 87.5 mm, slit = true" in sweep_picture(sweep, ".svg", [0])
+
+
+def test_where_nothing_is_stated_the_title_tells_the_preset_alone(maps: Bowls) -> None:
+    assert stated(maps) == "bowl-n8"
+
+
+def test_where_nothing_is_like_a_preset_the_title_tells_a_few_and_how_many_more() -> None:
+    moved = {f"points.{i}.a": 41.0 + 20 * i for i in range(1, 7)}
+    base = with_values(BOWL, BOWL.preset("bowl-n8"), moved)
+    told = stated(explore(BOWL, base, [Range.read("phi=80:90:10")], Local(1)))
+    assert told.startswith("bowl-n8, points.1.a = 61 mm, ")
+    assert told.endswith("and 2 more")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from stools import ONE_TOOL, PENS, machine, material, stool, stool_plan
+from stools import ONE_TOOL, PENS, machine, material, stool, stool_plan, through_cut
 
 from foldmill import Assignment, CreasePattern, Fold
 from foldmill_fabricate.errors import CannotPlan, DoesNotFit
@@ -208,7 +208,7 @@ def test_ties_hold_the_part_on_straight_edges_away_from_corners() -> None:
     assert len(plan.ties) >= 3
     for tie in plan.ties:
         away = np.linalg.norm(corners - (tie.x, tie.y), axis=1)
-        assert away.min() >= material().cut.tie_corner + tie.width / 2 - 1e-9
+        assert away.min() >= through_cut(material()).tie_corner + tie.width / 2 - 1e-9
     outer = plan.passes[-1].setups[-1].operations[-1].strokes
     drawn = sum(np.hypot(*np.diff(s.points, axis=0).T).sum() for s in outer)
     rim = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T).sum()
@@ -252,7 +252,7 @@ def test_a_weak_machine_is_told_that_it_may_not_cut_through() -> None:
 def test_a_crease_that_its_setbacks_swallow_is_refused() -> None:
     with pytest.raises(CannotPlan, match="nothing is left to score"):
         refuse_short_creases(
-            square("MVMV", 1.0).pattern, {Face.FRONT: np.arange(8, 12)}, {8, 1}, 0.75
+            square("MVMV", 1.0).pattern, {Face.FRONT: np.arange(8, 12)}, {8: 0.75, 1: 0.75}
         )
 
 

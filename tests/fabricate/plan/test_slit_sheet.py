@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import shapely
 from slit_forms import PRESETS, form
-from stools import machine, material
+from stools import machine, material, through_cut
 
 from foldmill import Assignment, Fold
 from foldmill.exchange import fold as fold_file
@@ -80,7 +80,7 @@ def test_no_tie_bridges_the_mouth_of_the_slit(name: str) -> None:
     plan = plan_of(name)
     (cut,) = strokes(plan, Role.CUT_INNER)
     gaps = [shapely.LineString(cut).distance(shapely.Point(tie.x, tie.y)) for tie in plan.ties]
-    assert min(gaps) >= plan.material.cut.tie_corner
+    assert min(gaps) >= through_cut(plan.material).tie_corner
 
 
 @EVERY

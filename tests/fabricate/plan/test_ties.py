@@ -12,6 +12,7 @@ import shapely
 from stools import machine, material, stool
 
 from foldmill import CreasePattern, Fold, installed
+from foldmill_fabricate.materials import ThroughCut
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.sheet import placed
 
@@ -42,6 +43,7 @@ def test_ties_keep_away_from_corners_and_holes(name: str) -> None:
     fold = PARTS[name]()
     plan = make(fold, material(), machine())
     cut = plan.material.cut
+    assert isinstance(cut, ThroughCut)
     rim = placed(fold.pattern.vertices, plan.placement)[fold.pattern.outline()[0]]
     before, after = rim - np.roll(rim, 1, axis=0), np.roll(rim, -1, axis=0) - rim
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]

@@ -192,7 +192,7 @@ def _setup(number: int, name: str, used: Machine, *operations: Operation) -> Set
         number=number,
         name=name,
         process="score" if scored else "cut",
-        tool=used.tools.score if scored else used.tools.cut,
+        tool=used.tools.station(process.kind),
         exposure=process.exposure,
         force=process.force,
         speed=process.speed,

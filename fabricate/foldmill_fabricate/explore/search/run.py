@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 from joblib import Parallel, delayed
 
-from foldmill import Design
+from foldmill import Design, InvalidInput
 from foldmill_fabricate.explore.search import starts
 from foldmill_fabricate.explore.search.frame import Frame
 from foldmill_fabricate.explore.search.island import MEMBERS, Island, evolve, settle
+from foldmill_fabricate.explore.search.measures import seat_width
 from foldmill_fabricate.explore.search.request import Request
 from foldmill_fabricate.explore.search.results import Result, best
 from foldmill_fabricate.explore.search.score import Judge
@@ -58,11 +59,12 @@ def search(
 
     jobs : processes, -1 for one per core; seconds : no round begins that would end later, going by
     the one before. Raises UnknownName for a preset there is not, InvalidParameters where nothing
-    can be started from.
+    can be started from, InvalidInput for a seat that no start has.
     """
     begun = time.monotonic()
-    judge = Judge.of_family(design, request)
     frames = starts.frames(design, request)
+    _refuse_no_seat(design, request, frames)
+    judge = Judge.of_family(design, request)
     with Parallel(n_jobs=jobs) as workers:
         islands = _scouted(judge, frames, workers)
         used = len(islands) * (SAMPLES + 1)
@@ -81,6 +83,19 @@ def search(
             alive = sorted(alive, key=_rank)[: _after(len(alive))]
             took = time.monotonic() - now
     return Outcome(best(judge, islands), used, False)
+
+
+def _refuse_no_seat(design: Design[Any], request: Request, frames: list[Frame]) -> None:
+    """Refuse a seat where no start has one: level facets are never met by chance."""
+    wanted = [target.name for target in request.targets]
+    if "seat" not in wanted:
+        return
+    if not any(seat_width(design.run(frame.values)) for frame in frames):
+        raise InvalidInput(
+            f"No form of {design.slug} to start from has a seat: none has level facets at its top. "
+            "Leave the target seat out, take another family, or state the parameters that make "
+            "its top level."
+        )
 
 
 def _renewed(islands: list[Island], evolved: list[Island]) -> list[Island]:

@@ -27,6 +27,8 @@ IDLE = 1e-12
 POWERS = (-2, -1, 1, 2)
 """Tied lengths in the ratio of these powers of cos(180°/N) keep that law with another N."""
 
+LEAST_ORDER = 3
+
 
 def variables(design: Design[Any], values: Values, among: list[Leaf]) -> tuple[Variable, ...]:
     """Return the variables of a start; raises InvalidInput where the start itself does not fold."""
@@ -46,10 +48,13 @@ def variables(design: Design[Any], values: Values, among: list[Leaf]) -> tuple[V
 
 
 def with_order(values: Values, tied: tuple[str, ...], name: str, order: int) -> Values:
-    """Return parameters for another number N of wedges; tied lengths keep their law."""
+    """Return parameters for another number N of wedges; tied lengths keep their law.
+
+    Of fewer than three wedges there is no law: then the number alone is to be refused.
+    """
     new, before = deepcopy(values), int(value_of(values, name))
     put(new, name, order)
-    if not tied:
+    if not tied or order < LEAST_ORDER:
         return new
     first = float(value_of(values, tied[0]))
     for other in tied[1:]:

@@ -13,10 +13,9 @@ from urllib.parse import parse_qsl, urlsplit
 
 from pydantic import ValidationError
 
-from foldmill import installed
 from foldmill.errors import InvalidInput
 from foldmill.refusals import explain
-from foldmill_fabricate.hooks import MACHINES
+from foldmill_fabricate import shelf
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock, VirtualClock
 from foldmill_fabricate.plotter.simulator.device import Faults
@@ -57,7 +56,7 @@ def behind(url: str) -> Simulator:
 def made(name: str, options: dict[str, str]) -> Simulator:
     """Make a simulator of a machine, changed by options as in an address; raises as ``behind``."""
     left = dict(options)
-    machine: Machine = installed().get(MACHINES, "machine", left.pop("machine", name))
+    machine: Machine = shelf.machine(left.pop("machine", name))
     changed: dict[str, str] = {
         key: left.pop(key) for key in ("buffer", "handshake", "baud", "answers") if key in left
     }

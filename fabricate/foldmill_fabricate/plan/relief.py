@@ -1,0 +1,108 @@
+"""Holes at vertices: they take away the material in which grooves meet and folds would tear.
+
+    D = max(relief_diameter, k·t, 1.5 mm),   k = 2.5 up to five creases at the vertex, 3 from six on
+
+Scores run out into the rim of such a hole, as they do at the outline.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import CreasePattern
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.materials import Material
+from foldmill_fabricate.passes import Face, Hole, Stroke
+from foldmill_fabricate.plan import spacing
+from foldmill_fabricate.plan.registration import hole_rim
+from foldmill_fabricate.toolpath import order
+
+Floats = NDArray[np.float64]
+ByFace = Mapping[Face, NDArray[np.intp]]
+Relief = Literal["none", "needed", "all"]
+
+SMALLEST = 1.5
+"""mm. A knife that trails its axis makes no smaller hole round."""
+MANY = 6
+"""Creases from which on the hole is the larger one."""
+SHARES = (2.5, 3.0)
+"""Diameter over thickness, for few creases and for many."""
+
+
+def diameters(
+    pattern: CreasePattern,
+    spots: Floats,
+    by_face: ByFace,
+    stops: Mapping[int, float],
+    material: Material,
+    relief: Relief,
+) -> dict[int, float]:
+    """Return the diameter of the hole at each vertex that gets one, mm, by vertex.
+
+    "needed" are the vertices at which grooves of both faces end too near each other, "all" are
+    those that scores stop short of. Raises CannotPlan where the outline is not cut through.
+    """
+    if relief == "none":
+        return {}
+    if relief == "all":
+        where = sorted(stops)
+    else:
+        where = sorted(spacing.tight_vertices(pattern, spots, by_face, stops, material))
+    if where and not material.cut.goes_through:
+        raise CannotPlan(
+            f"{len(where)} relief holes are wanted, and {material.cut.title} makes none. Plan with "
+            f"--outline through-cut on a machine that offers it, or without --relief."
+        )
+    edges = pattern.edges[np.concatenate(list(by_face.values()))]
+    creases = np.bincount(edges.ravel(), minlength=len(pattern.vertices))
+    return {v: diameter(int(creases[v]), material) for v in where}
+
+
+def diameter(creases: int, material: Material) -> float:
+    """Return the diameter of a relief hole at a vertex where so many creases are scored, mm."""
+    share = SHARES[creases >= MANY]
+    return round(max(material.relief_diameter, share * material.thickness, SMALLEST), 6)
+
+
+def holes(found: Mapping[int, float], spots: Floats) -> tuple[Hole, ...]:
+    """Return the holes on the sheet, by vertex."""
+    return tuple(
+        Hole(x=float(spots[v, 0]), y=float(spots[v, 1]), diameter=d) for v, d in found.items()
+    )
+
+
+def strokes(
+    relief: tuple[Hole, ...], repeats: int, start: Floats, offset: float
+) -> tuple[Stroke, ...]:
+    """Return the rims of relief holes in order of work.
+
+    start : (2,) where the tool is; offset : of the blade that programs make up for, mm.
+    """
+    return order.sorted_strokes([hole_rim(hole, offset) for hole in relief], repeats, start)
+
+
+def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) -> Iterator[Finding]:
+    """Yield a finding for every hole that comes too near another, or too near a cut."""
+    import shapely
+
+    rims = [shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2) for hole in relief]
+    open_edges = (pattern.assignments == 0) | (pattern.assignments == 5)
+    edges = shapely.MultiLineString(list(spots[pattern.edges[open_edges]]))
+    for k, (hole, rim) in enumerate(zip(relief, rims, strict=True)):
+        others = [shapely.distance(rim, other) for other in rims[:k]]
+        gap = min([float(shapely.distance(rim, edges)), *map(float, others)])
+        if gap < hole.diameter / 2:
+            yield Finding(
+                "relief-too-near",
+                Severity.ERROR if gap == 0 else Severity.WARNING,
+                f"relief hole at ({hole.x:.1f}, {hole.y:.1f}) mm",
+                f"Its rim is {gap:.2f} mm from the next hole or cut; {hole.diameter / 2:.2f} mm "
+                f"should remain.",
+                "Enlarge the design, or plan with --relief needed or none.",
+                (hole.x, hole.y),
+            )

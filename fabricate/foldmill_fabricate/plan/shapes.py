@@ -1,0 +1,107 @@
+"""What of the part's own shape is hard to make: narrow flaps, and holes too tight for the knife."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foldmill import Assignment, CreasePattern
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.passes import Plan
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+IN_LINE = 0.01
+"""mm. Creases whose ends leave one straight line by less are one hinge."""
+ROUND = 3.0
+"""A trailing knife rounds well what has a radius of so many times its offset."""
+
+
+def findings(pattern: CreasePattern, spots: Floats, plan: Plan) -> Iterator[Finding]:
+    """Yield a finding for every narrow flap and every tight hole; spots : (V, 2) mm."""
+    yield from _flaps(pattern, spots, plan.material.min_flap)
+    yield from _tight_holes(plan)
+
+
+def _flaps(pattern: CreasePattern, spots: Floats, least: float) -> Iterator[Finding]:
+    for vertices, hinge in flaps(pattern, spots):
+        a, b = spots[hinge]
+        along = (b - a) / np.hypot(*(b - a))
+        off = spots[vertices] - a
+        width = float(np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]).max())
+        if width < least - IN_LINE:
+            x, y = spots[vertices].mean(axis=0)
+            yield Finding(
+                "narrow-flap",
+                Severity.WARNING,
+                f"flap at ({x:.1f}, {y:.1f}) mm",
+                f"It stands {width:.2f} mm free of its only fold; {least:g} mm bend well.",
+                "Enlarge the design, or fold it with flat pliers along a ruler.",
+                (float(x), float(y)),
+            )
+
+
+def flaps(pattern: CreasePattern, spots: Floats) -> Iterator[tuple[Indices, Indices]]:
+    """Yield the facets that hang on one straight fold: their vertices, and two on the fold."""
+    facet = facets(pattern)
+    sides = _sides(pattern)
+    for number in range(int(facet.max(initial=-1)) + 1):
+        own = [sides[f, k] for f in np.flatnonzero(facet == number).tolist() for k in range(3)]
+        hinges = [edge for edge in own if pattern.assignments[edge] in (Assignment.M, Assignment.V)]
+        if not hinges:
+            continue
+        ends = np.unique(pattern.edges[hinges])
+        far = spots[ends] - spots[ends[0]]
+        last = ends[int(np.argmax(np.hypot(*far.T)))]
+        line = spots[last] - spots[ends[0]]
+        beside = np.abs(far[:, 0] * line[1] - far[:, 1] * line[0]) / np.hypot(*line)
+        if beside.max() <= IN_LINE:
+            yield np.unique(pattern.edges[own]), np.array([ends[0], last])
+
+
+def facets(pattern: CreasePattern) -> Indices:
+    """Return for each triangle (F,) the number of its facet: flat edges join triangles."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    sides = _sides(pattern)
+    count = len(pattern.faces)
+    face = np.repeat(np.arange(count), 3)
+    flat = pattern.assignments[sides.ravel()] == Assignment.F
+    order = np.argsort(sides.ravel()[flat], kind="stable")
+    edges, owners = sides.ravel()[flat][order], face[flat][order]
+    same = np.flatnonzero(edges[1:] == edges[:-1])
+    joined = coo_array((np.ones(len(same)), (owners[same], owners[same + 1])), (count, count))
+    _, labels = connected_components(joined, directed=False)
+    found: Indices = labels.astype(np.intp)
+    return found
+
+
+def _sides(pattern: CreasePattern) -> Indices:
+    """Return the edges (F, 3) of each triangle."""
+    numbers = {frozenset(edge): k for k, edge in enumerate(pattern.edges.tolist())}
+    return np.array(
+        [
+            [numbers[frozenset((face[k], face[k - 1]))] for k in range(3)]
+            for face in pattern.faces.tolist()
+        ],
+        np.intp,
+    ).reshape(-1, 3)
+
+
+def _tight_holes(plan: Plan) -> Iterator[Finding]:
+    tools = plan.machine.tools
+    least = 2 * ROUND * tools.blade_offset
+    tight = sorted({h.diameter for h in (*plan.holes, *plan.reliefs) if h.diameter < least})
+    if tools.blade == "drag" and tight:
+        yield Finding(
+            "tight-hole",
+            Severity.INFO,
+            "holes",
+            f"Holes of {', '.join(f'{d:g}' for d in tight)} mm come out less than round with a "
+            f"blade offset of {tools.blade_offset:g} mm; {least:g} mm would be round.",
+            "Punch them by hand, or take a blade with less offset.",
+        )

@@ -1,0 +1,69 @@
+"""Planning from the shell: other processes, other machines, relief, places."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+import stools
+from slit_forms import form
+
+from foldmill.exchange import fold as fold_file
+from foldmill_fabricate.cli.app import main
+from foldmill_fabricate.passes import Plan
+
+
+@pytest.fixture
+def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("stool.fold").write_text(fold_file.write(stools.stool()), encoding="utf-8")
+    return tmp_path / "job"
+
+
+def foldmill(*words: str) -> int:
+    """Run the command in this process; return its exit code."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", ["foldmill", *words])
+        with pytest.raises(SystemExit) as stop:
+            main()
+    return int(stop.value.code or 0)
+
+
+def test_a_machine_of_another_language_gets_drawings(job: Path) -> None:
+    assert foldmill("plan", "stool.fold", "--machine", "silhouette-like", "-o", "job") == 0
+    names = {path.name for path in job.iterdir()}
+    assert {"front.svg", "reverse.dxf", "job-sheet.pdf", "plan.json"} <= names
+    assert not any(name.endswith(".hpgl") for name in names)
+
+
+def test_programs_in_that_language_are_refused_in_one_sentence(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ("plan", "stool.fold", "--machine", "grbl-laser", "--to", "svg,hpgl", "-o", "job")
+    assert foldmill(*words) == 2
+    assert "speaks gcode, and programs in that language cannot be" in capsys.readouterr().err
+    assert not job.exists()
+
+
+def test_processes_are_chosen_and_the_folder_verifies(job: Path) -> None:
+    words = ("--score", "half-cut", "--outline", "score-and-snap", "--to", "hpgl,places")
+    assert foldmill("plan", "stool.fold", *words, "-o", "job") == 0
+    assert (job / "places.png").is_file()
+    assert foldmill("verify", "job") == 0
+    plan = Plan.model_validate_json((job / "plan.json").read_bytes())
+    assert plan.material.cut.kind == "score-and-snap"
+
+
+def test_a_tight_vertex_is_an_error_until_relief_is_asked_for(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lampshade = form("lampshade-n12", slit=False)
+    Path("lamp.fold").write_text(fold_file.write(lampshade), encoding="utf-8")
+    words = ("plan", "lamp.fold", "-o", "job", "--to", "hpgl", "--json")
+    assert foldmill(*words) == 1
+    assert "--relief needed" in capsys.readouterr().out
+    assert foldmill(*words, "--relief", "needed") == 0
+    assert len(json.loads(capsys.readouterr().out)["reliefs"]) == 1
+    assert foldmill("verify", "job") == 0
