@@ -98,6 +98,12 @@ class SetUp(_Value):
     """mm/s"""
     gates: tuple[Gate, ...]
     """What the operator does before it, in this order; empty where the machine changes tools."""
+    lead_in: tuple[XY, ...] = ()
+    """The holder's way in the waste, before the first stroke, that turns a blade of which nobody
+    knows how it points; empty where the program need not make up for the blade's offset."""
+    swivel_force: float = 0.0
+    """gf with which the blade is set down, out of the groove, to be turned at a sharp corner; 0
+    where it is turned in the material."""
     operations: tuple[Operation, ...]
 
 

@@ -144,11 +144,25 @@ def _formats(to: str | None, machine: Machine) -> list[str]:
     return formats
 
 
-def verify(path: Folder, as_json: AsJson = False) -> None:
+def verify(
+    path: Folder,
+    picture: Annotated[
+        Path | None, typer.Option(help="Draw what is missing, extra or moved into this PNG.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
     """Replay a job folder on a virtual sheet and derive its plan again."""
-    from foldmill_fabricate.verify import report, verify_folder
+    from foldmill_fabricate.verify import read_folder, report, verify_files
 
-    found = verify_folder(path)
+    if picture is not None and picture.suffix.lower() != ".png":
+        raise FoldmillError(f"--picture writes a PNG; name it {picture.stem}.png.")
+    files = read_folder(path)
+    found = verify_files(files)
+    if picture is not None:
+        from foldmill_fabricate.files import write_all
+        from foldmill_fabricate.pictures import faults_picture
+
+        write_all(picture.parent, {picture.name: faults_picture(files.plan, found)})
     data = {
         "ok": found.ok,
         "figures": asdict(found.figures),

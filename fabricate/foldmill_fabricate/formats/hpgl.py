@@ -1,7 +1,8 @@
 """HP-GL programs, one per set-up or per face, in the dialect of the plan's machine.
 
 Millimetres become steps in the last function before the bytes (``steps``), rounded once. No LT and
-no LB: dashes are real strokes and words stay on the job sheet.
+no LB: dashes are real strokes and words stay on the job sheet. Where the machine does not make up
+for a blade's offset, the program leads the holder so that the tip goes where the plan says.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.machines import Axes, Dialect
 from foldmill_fabricate.passes import Face, Fit, Plan, SetUp
 from foldmill_fabricate.sheet import seen_by_machine
-from foldmill_fabricate.toolpath.traversal import traversal
+from foldmill_fabricate.toolpath.ways import ways
 
 Steps = NDArray[np.int64]
 
@@ -118,7 +119,12 @@ def speed(setup: SetUp) -> int:
 
 def force(setup: SetUp) -> int:
     """Return what FS gets: whole gf, at least 1."""
-    return max(1, int(half_away(setup.force)))
+    return whole_grams(setup.force)
+
+
+def whole_grams(force: float) -> int:
+    """Round gf for FS: whole, at least 1."""
+    return max(1, int(half_away(force)))
 
 
 def _setup(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Iterator[str]:
@@ -126,11 +132,14 @@ def _setup(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Iterator[st
     if setup.tool:
         yield f"SP{setup.tool};"
     yield from _speed_and_force(setup, plan.machine.dialect)
-    for operation in setup.operations:
-        for stroke in operation.strokes:
-            way = seen_by_machine(plan, face, traversal(stroke, operation), fit)
-            where = f'Set-up {setup.number} "{setup.name}"'
-            yield from _stroke(steps(way, plan.machine.axes, where), plan.machine.dialect)
+    where = f'Set-up {setup.number} "{setup.name}"'
+    light = False
+    for way in ways(setup, plan.machine, lambda points: seen_by_machine(plan, face, points, fit)):
+        if way.light is not light:
+            light = way.light
+            yield "PU;"
+            yield f"FS{whole_grams(setup.swivel_force) if light else force(setup)};"
+        yield from _stroke(steps(way.points, plan.machine.axes, where), plan.machine.dialect)
 
 
 def _speed_and_force(setup: SetUp, dialect: Dialect) -> Iterator[str]:

@@ -174,6 +174,13 @@ def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
             f"may not get through. Then treat the outline as a deep score and snap it, or finish "
             f"it with a knife by hand along a ruler; punch the holes by hand."
         )
+    offset = plan.machine.tools.host_offset
+    if offset:
+        said.append(
+            f"The programs lead the knife's holder, not its tip: they are for a blade whose tip "
+            f"trails {offset:g} mm behind the holder's axis. Measure yours, set the machine's own "
+            f"offset to 0, and expect a small angle cut in the waste before each set-up."
+        )
     closed = sum(abs(angle) >= 180 - CLOSED_DEG for angle in pattern.fold_angles.tolist())
     if closed:
         said.append(

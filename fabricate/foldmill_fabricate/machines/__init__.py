@@ -95,6 +95,12 @@ class Tools(Preset):
     firmware_offset: bool = True
     """Whether the machine itself makes up for the blade's offset."""
     blade_offset: Mm = Field(0.25, ge=0)
+    """From the holder's axis to the tip that trails it."""
+
+    @property
+    def host_offset(self) -> float:
+        """The offset that programs make up for, mm; 0 where the machine does, or nothing trails."""
+        return self.blade_offset if self.trails and not self.firmware_offset else 0.0
 
     def station(self, kind: str) -> int:
         """Return the number after SP for a process; 0 where SP means nothing."""
@@ -132,6 +138,8 @@ class Motion(Preset):
 
     travel_speed: MmPerSecond = Field(gt=0)
     acceleration: MmPerSecond2 = Field(gt=0)
+    corner_speed: MmPerSecond = Field(10.0, gt=0)
+    """Change of velocity at a corner that is taken without slowing down further."""
     lift_time: Seconds = Field(ge=0)
     tool_time: Seconds = Field(ge=0)
     swivel_speed: DegPerSecond = Field(360.0, gt=0)

@@ -149,6 +149,10 @@ class PenLine(Score):
 class Cut(Process):
     """What every process has that parts the sheet."""
 
+    swivel_force: GramForce = Field(0.0, ge=0)
+    """Force at which a drag knife is lifted out and turned at sharp corners: thick sheets break its
+    tip. 0: it is turned in the material."""
+
     @property
     def goes_through(self) -> bool:
         """Whether the machine itself parts the sheet: only then are ties needed, and holes made."""

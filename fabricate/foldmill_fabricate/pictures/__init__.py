@@ -5,6 +5,7 @@ is imported inside the functions, without pyplot, so that nobody's global state 
 """
 
 from foldmill_fabricate.pictures.angles import angles_picture
+from foldmill_fabricate.pictures.faults import faults_picture
 from foldmill_fabricate.pictures.folded import folded_picture
 from foldmill_fabricate.pictures.gallery import gallery
 from foldmill_fabricate.pictures.motion import motion_picture
@@ -17,6 +18,7 @@ from foldmill_fabricate.pictures.stages import stages_picture
 
 __all__ = [
     "angles_picture",
+    "faults_picture",
     "folded_picture",
     "gallery",
     "motion_picture",

@@ -10,7 +10,7 @@ from foldmill_fabricate.passes import Face, Figures, Flip, Pass, SetUp, Sheet
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import motion, order
 from foldmill_fabricate.toolpath.bounds import travel_bound
-from foldmill_fabricate.toolpath.traversal import traversal
+from foldmill_fabricate.toolpath.ways import ways
 
 Floats = NDArray[np.float64]
 
@@ -19,11 +19,12 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
     """Return the figures of the whole job, the tool starting in the carrier's corner."""
     at = np.zeros(2)
     drawn = travel = bound = seconds = 0.0
-    strokes = 0
+    strokes = lifts = 0
     for one_pass in passes:
         for setup in one_pass.setups:
-            paths = _paths(one_pass.face, setup, sheet, flip)
-            strokes += len(paths)
+            paths = _paths(one_pass.face, setup, machine, sheet, flip)
+            strokes += sum(len(operation.strokes) for operation in setup.operations)
+            lifts += len(paths)
             drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
             travel += order.travel(paths, at)
             bound += _bound(one_pass.face, setup, at, sheet, flip)
@@ -31,11 +32,11 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
             at = paths[-1][-1] if paths else at
     return Figures(
         strokes=strokes,
-        lifts=strokes,
+        lifts=lifts,
         drawn=round(drawn, 3),
         travel=round(travel, 3),
         travel_bound=round(bound, 3),
-        seconds=round(seconds, 1),
+        seconds=round(seconds + _put_away(passes, machine), 1),
     )
 
 
@@ -47,10 +48,10 @@ def _bound(face: Face, setup: SetUp, at: Floats, sheet: Sheet, flip: Flip) -> fl
     return travel_bound(lines, at, returns)
 
 
-def _paths(face: Face, setup: SetUp, sheet: Sheet, flip: Flip) -> list[Floats]:
-    """Return the ways of the tool as the machine sees them, repeats and overcut included."""
-    paths = [traversal(s, operation) for operation in setup.operations for s in operation.strokes]
-    return [_seen(path, face, sheet, flip) for path in paths]
+def _paths(face: Face, setup: SetUp, machine: Machine, sheet: Sheet, flip: Flip) -> list[Floats]:
+    """Return what the machine is told: repeats, overcut, lead-in and swivels included."""
+    told = ways(setup, machine, lambda points: _seen(np.asarray(points), face, sheet, flip))
+    return [way.points for way in told]
 
 
 def _seen(points: Floats, face: Face, sheet: Sheet, flip: Flip) -> Floats:
@@ -59,10 +60,18 @@ def _seen(points: Floats, face: Face, sheet: Sheet, flip: Flip) -> Floats:
 
 def _seconds(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) -> float:
     model = machine.motion
-    total = model.tool_time
+    speed = motion.told_speed(setup.speed, machine)
+    total = model.tool_time if setup.tool else 0.0
     for path in paths:
         hop = float(np.hypot(*(path[0] - at)))
         total += float(motion.move_seconds([hop], model.travel_speed, model.acceleration)[0])
-        total += 2 * model.lift_time + motion.path_seconds(path, setup.speed, model)
+        total += 2 * model.lift_time + motion.path_seconds(path, speed, model)
         at = path[-1]
     return total
+
+
+def _put_away(passes: tuple[Pass, ...], machine: Machine) -> float:
+    """Return the time in which each program puts its last tool away at its end."""
+    by_hand = machine.tools.change == "operator"
+    last = [setup for work in passes for setup in (work.setups if by_hand else work.setups[-1:])]
+    return machine.motion.tool_time * sum(setup.tool != 0 for setup in last)

@@ -19,7 +19,16 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Kind, Material, Perforation
 from foldmill_fabricate.passes import Face, Flip, Hole, Plan, Sheet, Tie
-from foldmill_fabricate.plan import outline, processes, registration, rules, scores, setups, sides
+from foldmill_fabricate.plan import (
+    lead_ins,
+    outline,
+    processes,
+    registration,
+    rules,
+    scores,
+    setups,
+    sides,
+)
 from foldmill_fabricate.plan import relief as relief_holes
 from foldmill_fabricate.plan.figures import measure
 from foldmill_fabricate.plan.placement import lay_blank, place
@@ -70,6 +79,7 @@ def make(
     found = _vertices(pattern, spots, by_face, material, relief)
     lines, ties = _lines(pattern, spots, by_face, found, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
+    passes = lead_ins.added(passes, _rim(pattern, spots), marks, sheet, material, machine)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
         pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),
@@ -133,7 +143,7 @@ def _lines(
         drawn = scores.strokes(pattern, spots, by_face[face], ends, score.repeats, start, machine)
         return Lines(
             scores.dashed(drawn, score) if isinstance(score, Perforation) else drawn,
-            relief_holes.strokes(holes, material.cut.repeats, start),
+            relief_holes.strokes(holes, material.cut.repeats, start, machine.tools.host_offset),
             outline.inner_cuts(pattern, spots, material.cut.repeats, start),
             cuts,
         )
@@ -161,5 +171,10 @@ def _register(
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    part = spots[pattern.outline()[0]]
-    return registration.register(part, sheet, turn, material)
+    return registration.register(_rim(pattern, spots), sheet, turn, material)
+
+
+def _rim(pattern: CreasePattern, spots: Floats) -> Floats:
+    """Return the outline (n, 2) of the part on the sheet."""
+    rim: Floats = spots[pattern.outline()[0]]
+    return rim

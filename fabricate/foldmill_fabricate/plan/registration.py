@@ -16,6 +16,7 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import Holes, Material
 from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
 from foldmill_fabricate.sheet import flipped
+from foldmill_fabricate.toolpath.knife import facets, is_facetted
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -160,10 +161,28 @@ def _witness(
     ), ()
 
 
+def hole_rim(hole: Hole, offset: float) -> Stroke:
+    """Return a hole's rim as a blade of this offset (mm) can follow it."""
+    return facetted(hole, offset) if is_facetted(hole.diameter / 2, offset) else circle(hole)
+
+
 def circle(hole: Hole, corner_tolerance: float = 0.02) -> Stroke:
     """Return a hole's rim as a closed polygon that leaves the circle by no more than that, mm."""
     radius = hole.diameter / 2
     corners = max(12, int(np.ceil(np.pi / np.arccos(1 - corner_tolerance / radius))))
+    return _polygon(hole, radius, corners)
+
+
+def facetted(hole: Hole, offset: float) -> Stroke:
+    """Return a closed polygon round a hole that a blade of this offset can follow, mm.
+
+    Its sides touch the hole's circle from outside, so that a pin of the hole's diameter fits.
+    """
+    count = facets(hole.diameter / 2, offset)
+    return _polygon(hole, hole.diameter / 2 / float(np.cos(np.pi / count)), count)
+
+
+def _polygon(hole: Hole, radius: float, corners: int) -> Stroke:
     angles = 2 * np.pi * np.arange(corners) / corners
     rim = [(float(hole.x + radius * np.cos(a)), float(hole.y + radius * np.sin(a))) for a in angles]
     return Stroke(points=(*rim, rim[0]))

@@ -19,7 +19,7 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Hole, Stroke
 from foldmill_fabricate.plan import spacing
-from foldmill_fabricate.plan.registration import circle
+from foldmill_fabricate.plan.registration import hole_rim
 from foldmill_fabricate.toolpath import order
 
 Floats = NDArray[np.float64]
@@ -76,9 +76,14 @@ def holes(found: Mapping[int, float], spots: Floats) -> tuple[Hole, ...]:
     )
 
 
-def strokes(relief: tuple[Hole, ...], repeats: int, start: Floats) -> tuple[Stroke, ...]:
-    """Return the rims of relief holes in order of work; start : (2,) where the tool is."""
-    return order.sorted_strokes([circle(hole) for hole in relief], repeats, start)
+def strokes(
+    relief: tuple[Hole, ...], repeats: int, start: Floats, offset: float
+) -> tuple[Stroke, ...]:
+    """Return the rims of relief holes in order of work.
+
+    start : (2,) where the tool is; offset : of the blade that programs make up for, mm.
+    """
+    return order.sorted_strokes([hole_rim(hole, offset) for hole in relief], repeats, start)
 
 
 def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) -> Iterator[Finding]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Flip, Gate, Operation, Pass, Role, SetUp, Sheet, Stroke
-from foldmill_fabricate.plan.registration import Registration, circle
+from foldmill_fabricate.plan.registration import Registration, hole_rim
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import order
 
@@ -64,7 +64,8 @@ def passes(
     drafts: list[_Draft] = []
     if len(scored) == 2:
         front = lines(Face.FRONT, home)
-        drafts.append(_cut("holes", Face.FRONT, material, holes=_hole_strokes(marks, home)))
+        holes = _hole_strokes(marks, machine.tools.host_offset, home)
+        drafts.append(_cut("holes", Face.FRONT, material, holes=holes))
         drafts.append(_score(Face.FRONT, material, front.scores, marks.witness))
         home = flipped([home], flip)[0]
     final = lines(last, home)
@@ -73,9 +74,8 @@ def passes(
     return _number([draft for draft in drafts if draft.operations], material, machine)
 
 
-def _hole_strokes(marks: Registration, home: Floats) -> tuple[Stroke, ...]:
-    circles = [circle(hole) for hole in marks.holes]
-    return order.sorted_strokes(circles, 1, home)
+def _hole_strokes(marks: Registration, offset: float, home: Floats) -> tuple[Stroke, ...]:
+    return order.sorted_strokes([hole_rim(hole, offset) for hole in marks.holes], 1, home)
 
 
 def _score(
@@ -126,6 +126,7 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
             force=machine.tools.force(process.force),
             speed=process.speed,
             gates=_gates(before, draft, machine),
+            swivel_force=_swivel_force(draft, material, machine),
             operations=draft.operations,
         )
         setups.append((draft.face, setup))
@@ -135,6 +136,12 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
         Pass(face=face, setups=tuple(setup for own, setup in setups if own is face))
         for face in faces
     )
+
+
+def _swivel_force(draft: _Draft, material: Material, machine: Machine) -> float:
+    """Return the force for turning a blade out of the groove: where a program can do that."""
+    possible = machine.tools.host_offset > 0 and machine.dialect.force
+    return material.cut.swivel_force if possible and draft.process == "cut" else 0.0
 
 
 def _gates(before: _Draft | None, draft: _Draft, machine: Machine) -> tuple[Gate, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.errors import ProgramRefused
-from foldmill_fabricate.toolpath.motion import move_seconds
+from foldmill_fabricate.toolpath.motion import Pace, move_seconds
 
 XY = tuple[float, float]
 
@@ -132,6 +132,7 @@ class _Timer:
         self.moved = self.down = self.relative = False
         self.stroke = 0
         self.speed = machine.motion.travel_speed
+        self.pace = Pace(machine.motion)
 
     def timed(self, piece: bytes, number: int) -> Instruction:
         seconds = 0.0
@@ -161,6 +162,7 @@ class _Timer:
             self.relative = name == b"PR"
         elif self.down != (name == b"PD"):
             self.down = not self.down
+            self.pace.stop()
             self.stroke += not self.down
             seconds = self.machine.motion.lift_time
         if not numbers:
@@ -170,10 +172,13 @@ class _Timer:
         if not self.relative:
             way[1:] = steps
         self.at, self.moved = (float(way[-1, 0]), float(way[-1, 1])), True
+        moves = np.diff(way, axis=0) / self.machine.axes.units_per_mm
+        if self.down:
+            return seconds + sum(self.pace.go_on(dx, dy, self.speed) for dx, dy in moves.tolist())
         motion = self.machine.motion
-        lengths = np.hypot(*np.diff(way, axis=0).T) / self.machine.axes.units_per_mm
-        speed = self.speed if self.down else motion.travel_speed
-        return seconds + float(move_seconds(lengths, speed, motion.acceleration).sum())
+        lengths = np.hypot(*moves.T)
+        hops = move_seconds(lengths, motion.travel_speed, motion.acceleration)
+        return seconds + float(hops.sum())
 
 
 def _divided(piece: bytes, limit: int, number: int) -> Iterator[bytes]:

@@ -5,6 +5,7 @@ what pattern, process rule and placement ask for (``rule``). Mirror, placement, 
 are derived here a second time, so that a fault has to be made twice to pass unseen.
 """
 
+from foldmill_fabricate.verify.faults import Fault, Kind
 from foldmill_fabricate.verify.folder import (
     JobFiles,
     read_folder,
@@ -15,8 +16,10 @@ from foldmill_fabricate.verify.report import report
 from foldmill_fabricate.verify.verification import Figures, Verification, verify
 
 __all__ = [
+    "Fault",
     "Figures",
     "JobFiles",
+    "Kind",
     "Verification",
     "read_folder",
     "report",

@@ -7,6 +7,7 @@ each step is exact however long it is. With the pen up the blade keeps its direc
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -14,9 +15,17 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+STARTS = np.radians(np.arange(0.0, 360.0, 30.0))
+"""(12,) rad. Directions in which a blade may point when the machine is switched on."""
 _STEPS = 12.0 * np.linspace(0.0, 1.0, 97)[1:] ** 2
 """Stations along a straight line, in offsets: fine while the blade turns; after twelve offsets the
 angle is 6e-6 of itself."""
+_FEW = _STEPS[7::8]
+"""Stations where the blade hardly turns."""
+_SHORT = 0.5
+"""Offsets. The tip hardly goes on along a line as short as a chord of a swivel."""
+_HARDLY = 0.05
+"""rad. A blade this near to its course leaves the chords between few stations by 0.006 mm."""
 
 
 def tips(paths: list[Floats], offset: float, heading: float = 0.0) -> list[Floats]:
@@ -24,34 +33,42 @@ def tips(paths: list[Floats], offset: float, heading: float = 0.0) -> list[Float
 
     heading : rad, direction from tip to holder before the first; nobody knows it on a real machine.
     """
-    result = []
+    return [ways[0] for ways, _ in dragged(paths, offset, np.array([heading]))]
+
+
+def dragged(
+    paths: Iterable[Floats], offset: float, headings: Floats
+) -> Iterator[tuple[Floats, Floats]]:
+    """Yield for each way of the holder (m, 2), mm, where tips go that point variously at first.
+
+    headings : (k,) rad, from tip to holder before the first way. Yields the tips' ways (k, n, 2)
+    and their headings (k, n) there; the last are those before the next way.
+    """
     for path in paths:
-        way, heading = _drag(path, offset, heading)
-        result.append(way)
-    return result
+        ways, turned = _drag(path, offset, headings)
+        yield ways, turned
+        headings = turned[:, -1]
 
 
-def _drag(path: Floats, offset: float, heading: float) -> tuple[Floats, float]:
-    pieces = [_tip(path[:1], np.array([heading]), offset)]
+def _drag(path: Floats, offset: float, headings: Floats) -> tuple[Floats, Floats]:
+    holders, angles = [path[:1]], [headings[:, None]]
     for start, end in pairwise(path):
         length = float(np.hypot(*(end - start)))
         if length == 0:
             continue
-        stations = np.append(_STEPS[_STEPS * offset < length] * offset, length)
         course = float(np.arctan2(*(end - start)[::-1]))
-        headings = course + _angles(heading - course, stations, offset)
-        holder = start + (stations / length)[:, None] * (end - start)
-        pieces.append(_tip(holder, headings, offset))
-        heading = float(headings[-1])
-    return np.vstack(pieces), heading
+        astray = _wrapped(angles[-1][:, -1] - course)
+        coarse = length < _SHORT * offset or np.abs(astray).max() < _HARDLY
+        table = _FEW if coarse else _STEPS
+        stations = np.append(table[table * offset < length] * offset, length)
+        left = np.tan(astray / 2)[:, None] * np.exp(-stations / offset)
+        angles.append(course + 2 * np.arctan(left))
+        holders.append(start + (stations / length)[:, None] * (end - start))
+    turned = np.hstack(angles)
+    arms = np.stack([np.cos(turned), np.sin(turned)], axis=-1)
+    return np.vstack(holders) - offset * arms, turned
 
 
-def _angles(angle: float, stations: Floats, offset: float) -> Floats:
-    half = (angle + np.pi) % (2 * np.pi) - np.pi
-    angles: Floats = 2 * np.arctan(np.tan(half / 2) * np.exp(-stations / offset))
-    return angles
-
-
-def _tip(holder: Floats, headings: Floats, offset: float) -> Floats:
-    tip: Floats = holder - offset * np.column_stack([np.cos(headings), np.sin(headings)])
-    return tip
+def _wrapped(angles: Floats) -> Floats:
+    wrapped: Floats = (angles + np.pi) % (2 * np.pi) - np.pi
+    return wrapped

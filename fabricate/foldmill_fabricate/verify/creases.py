@@ -11,7 +11,7 @@ from foldmill import Assignment
 from foldmill.finding import Finding, Severity
 from foldmill.tolerances import COINCIDENT_MM
 from foldmill_fabricate.materials import Perforation
-from foldmill_fabricate.passes import Role
+from foldmill_fabricate.passes import Face, Role
 from foldmill_fabricate.verify import rows, tolerances
 from foldmill_fabricate.verify.asked import FACES, NOWHERE, Asked
 from foldmill_fabricate.verify.cover import (
@@ -21,6 +21,7 @@ from foldmill_fabricate.verify.cover import (
     difference,
     pairs,
     pieces,
+    stretches,
     uncovered,
 )
 from foldmill_fabricate.verify.planned import Planned, at
@@ -49,6 +50,31 @@ def prove_creases(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
     if isinstance(score, Perforation):
         found += prove_rows(asked, score, drawn[1], scores[1])
     return unassigned + found
+
+
+def astray(asked: Asked, strokes: Sequence[Planned]) -> list[tuple[Face, bool, Pieces, Stretches]]:
+    """Return stretches that are not scored (True), and that are and should not be (False)."""
+    found = []
+    least, most = asked.setbacks
+    for face, name in enumerate(FACES):
+        drawn = pieces([s.points for s in strokes if s.role is Role.SCORE and s.face is name])
+        mine = asked.score_face == face
+        near, along = _coverage(asked, mine, drawn)
+        required = _between(mine, most[:, 0], asked.lengths - most[:, 1])
+        allowed = _between(mine, least[:, 0], asked.lengths - least[:, 1])
+        lost, more = difference(along, required), difference(along, allowed)
+        if isinstance(asked.plan.material.score, Perforation):
+            lost = stretches(())  # a row has gaps; what is wrong with one is told in words
+        found += [
+            (name, True, asked.lines(mine), _marked(lost.take(lost.count < 0))),
+            (name, False, asked.lines(mine), _marked(more.take(more.count > 0))),
+            (name, False, drawn, _marked(uncovered(drawn, near.near()))),
+        ]
+    return found
+
+
+def _marked(parts: Stretches) -> Stretches:
+    return parts.take(parts.lengths > tolerances.UNEVEN_MM)
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:

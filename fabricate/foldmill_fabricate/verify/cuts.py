@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from foldmill import Assignment
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import ThroughCut
-from foldmill_fabricate.passes import Role, Tie
+from foldmill_fabricate.passes import Face, Role, Tie
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import Asked
 from foldmill_fabricate.verify.cover import (
+    Pieces,
     Stretches,
     difference,
     pairs,
@@ -44,17 +45,45 @@ def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
     return Finding(code, Severity.ERROR, where, message, remedy)
 
 
+def astray(asked: Asked, strokes: Sequence[Planned]) -> list[tuple[Face, bool, Pieces, Stretches]]:
+    """Return stretches that are not cut (True), and that are and should not be (False)."""
+    loops = asked.has(Assignment.B) & ~asked.rim
+    last = asked.plan.passes[-1].face if asked.plan.passes else Face.FRONT
+    found = []
+    for role, which, ties in (
+        (Role.CUT_OUTER, asked.rim, asked.plan.ties),
+        (Role.CUT_INNER, asked.has(Assignment.C) | loops, ()),
+    ):
+        drawn, edges = pieces([s.points for s in strokes if s.role is role]), asked.lines(which)
+        uneven, stray = _differences(asked, drawn, which, _bridges(asked, which, ties))
+        found += [
+            (last, True, edges, uneven.take(uneven.count < 0)),
+            (last, False, edges, uneven.take(uneven.count > 0)),
+            (last, False, drawn, stray),
+        ]
+    return found
+
+
+def _differences(
+    asked: Asked, drawn: Pieces, which: Flags, bridges: Stretches
+) -> tuple[Stretches, Stretches]:
+    """Return where edges are cut too often (+) or not at all (-), and what is cut besides."""
+    edges = asked.lines(which)
+    found = pairs(drawn, edges, tolerances.PLAN_MM)
+    _, along, _, _ = found.along()
+    whole = Stretches(edges.line, edges.start, edges.lengths, np.ones(len(edges.line)))
+    uneven = difference(along, difference(whole, bridges))
+    stray = uncovered(drawn, found.near())
+    long = tolerances.UNEVEN_MM
+    return uneven.take(uneven.lengths > long), stray.take(stray.lengths > long)
+
+
 def _compare(
     asked: Asked, strokes: Sequence[Planned], which: Flags, ties: Sequence[Tie]
 ) -> list[Finding]:
     drawn = pieces([stroke.points for stroke in strokes])
-    edges = asked.lines(which)
-    found = pairs(drawn, edges, tolerances.PLAN_MM)
-    _, along, _, _ = found.along()
     bridges = _bridges(asked, which, ties)
-    whole = Stretches(edges.line, edges.start, edges.lengths, np.ones(len(edges.line)))
-    uneven = difference(along, difference(whole, bridges))
-    uneven = uneven.take(uneven.lengths > tolerances.UNEVEN_MM)
+    uneven, stray = _differences(asked, drawn, which, bridges)
     findings = [
         _uneven_finding(asked, *row, bridges)
         for row in zip(
@@ -65,8 +94,6 @@ def _compare(
             strict=True,
         )
     ]
-    stray = uncovered(drawn, found.near())
-    stray = stray.take(stray.lengths > tolerances.UNEVEN_MM)
     for line, low, high in zip(stray.line.tolist(), stray.low, stray.high, strict=True):
         ends = at(drawn.at(line, low)), at(drawn.at(line, high))
         text = f"It cuts from {ends[0]} to {ends[1]}, where the pattern has no such cut."
@@ -144,7 +171,7 @@ def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Float
     gaps = np.hypot(*(corners - (tie.x, tie.y)).T) - tie.width / 2
     if len(gaps) and gaps.min() < cut.tie_corner - tolerances.UNEVEN_MM:
         text = f"It is {gaps.min():.2f} mm from a corner; {cut.tie_corner:g} mm are asked for."
-        found.append(Finding("tie-corner", Severity.WARNING, where, text))
+        found.append(_error("tie-corner", where, text))
     return found
 
 

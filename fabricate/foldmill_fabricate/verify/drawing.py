@@ -123,8 +123,9 @@ class Drawing:
 
         known : numbers of stray lines that somebody has spoken of already.
         """
-        moved, beside = self._moved()
-        found = [self._say("moved", k, text) for k, text in moved.items()]
+        moved = self.moved
+        beside = {line for lines in moved.values() for line in lines}
+        found = [self._say("moved", k, self._off(k, lines)) for k, lines in moved.items()]
         found += self._missing_findings(set(moved))
         found += self._extra_findings(known | beside)
         return found + self._count_findings(set(moved))
@@ -134,28 +135,32 @@ class Drawing:
         where = f"{self.name}, {planned} at {at(planned.points[0])}"
         return Finding(code, Severity.ERROR, where, message)
 
-    def _moved(self) -> tuple[dict[int, str], set[int]]:
-        """Match lost strokes with lines close beside them: one sentence instead of two."""
+    @cached_property
+    def moved(self) -> dict[int, tuple[int, ...]]:
+        """Lost strokes and the stray lines close beside each: one fault instead of two."""
         import shapely
 
         extra = [int(k) for k in np.unique(self.extra.line) if len(self.lines[k].points) > 1]
-        beside: set[int] = set()
-        moved: dict[int, str] = {}
         if not extra or len(extra) > _MANY:
-            return moved, beside
+            return {}
         tracks = np.array([shapely.LineString(self.lines[k].points) for k in extra])
-        for stroke in np.unique(self.missing.line):
+        found = {}
+        for stroke in np.unique(self.missing.line).tolist():
             way = shapely.LineString(self.strokes[stroke].points)
-            gaps = shapely.hausdorff_distance(tracks, way)
-            near = np.flatnonzero(gaps < tolerances.BESIDE_MM)
+            near = np.flatnonzero(shapely.hausdorff_distance(tracks, way) < tolerances.BESIDE_MM)
             if len(near):
-                gap = float(gaps[near].max())
-                beside |= {extra[k] for k in near}
-                moved[int(stroke)] = (
-                    f"The stroke lies up to {gap:.3f} mm off its place; "
-                    f"{self.tolerance:.3f} mm is allowed."
-                )
-        return moved, beside
+                found[stroke] = tuple(extra[k] for k in near)
+        return found
+
+    def _off(self, stroke: int, lines: tuple[int, ...]) -> str:
+        import shapely
+
+        tracks = np.array([shapely.LineString(self.lines[k].points) for k in lines])
+        way = shapely.LineString(self.strokes[stroke].points)
+        return (
+            f"The stroke lies up to {shapely.hausdorff_distance(tracks, way).max():.3f} mm off its "
+            f"place; {self.tolerance:.3f} mm is allowed."
+        )
 
     def _missing_findings(self, moved: set[int]) -> list[Finding]:
         found = []
@@ -188,7 +193,8 @@ class Drawing:
         wanted = wanted_counts(self.strokes)
         uneven = difference(on_wanted, wanted)
         slack = tolerances.SLACK_STEPS * self.step
-        long = uneven.take(uneven.lengths > max(slack, 2 * self.tolerance))
+        blade = tolerances.SLACK_BLADE * (self.tolerance - self.step)
+        long = uneven.take(uneven.lengths > max(slack, 2 * self.tolerance, blade))
         lost = set(self.missing.line.tolist())
         found = []
         for line, rows in _grouped(_rows(long)).items():

@@ -37,6 +37,8 @@ class Run:
     """gf; None where no FS was given."""
     byte: int
     """Where in the program it begins."""
+    choice: int = 0
+    """How often SP had chosen a tool before it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +99,7 @@ class _Pen:
     begun: bool = False
     relative: bool = False
     tool: int | None = None
+    choices: int = 0
     speed: float | None = None
     force: float | None = None
     drawing: list[tuple[float, float]] | None = None
@@ -147,6 +150,7 @@ class _Pen:
         if not tool.is_integer() or tool < 0:
             self.complain("syntax", byte, f"There is no tool {tool:g}.")
         self.tool = int(tool)
+        self.choices += 1
 
     def set_speed(self, _: str, values: list[float], byte: int) -> None:
         self.interrupt(byte)
@@ -191,7 +195,8 @@ class _Pen:
     def lift(self) -> None:
         if self.drawing:
             points = _array(self.drawing)
-            self.runs.append(Run(points, self.tool, self.speed, self.force, self.down_at))
+            state = self.tool, self.speed, self.force, self.down_at, self.choices
+            self.runs.append(Run(points, *state))
         self.drawing = None
 
     def move(self, mnemonic: str, values: list[float], byte: int) -> None:

@@ -7,6 +7,7 @@ from itertools import pairwise
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import Perforation, ThroughCut
 from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp
+from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 
 _PROCESS = {
     Role.HOLE: "cut",
@@ -160,6 +161,7 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
         "exposure": (setup.exposure, process.exposure),
         "force": (setup.force, min(process.force, tools.max_force or 0.0)),
         "speed": (setup.speed, process.speed),
+        "swivel force": (setup.swivel_force, _swivel_force(plan, setup)),
     }
     where = f"set-up {setup.number} ({setup.name})"
     found = [
@@ -170,6 +172,13 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
     for operation in setup.operations:
         found += _operation_findings(setup, operation, process.repeats, process.overcut, where)
     return found
+
+
+def _swivel_force(plan: Plan, setup: SetUp) -> float:
+    """Return with which force a blade is turned out of its cut: where a program can do that."""
+    steered = modelled_offset(plan.machine) > 0
+    possible = steered and plan.machine.dialect.force and setup.process == "cut"
+    return plan.material.cut.swivel_force if possible else 0.0
 
 
 def _operation_findings(
@@ -183,7 +192,10 @@ def _operation_findings(
         text = f"{_plural(operation.role)} are repeated {operation.repeats} times, not {repeats}."
         found.append(_error("set-up-values", where, text))
     closed = any(stroke.closed for stroke in operation.strokes)
-    if closed and operation.overcut != overcut:
+    if operation.overcut > 0 and _PROCESS[operation.role] == "score":
+        text = f"{_plural(operation.role)} run {operation.overcut:g} mm past their ends, into what "
+        found.append(_error("overcut-on-score", where, f"{text}they must not touch."))
+    elif closed and operation.overcut != overcut:
         text = f"The overcut of closed strokes is {operation.overcut:g} mm, not {overcut:g} mm."
         found.append(_error("set-up-values", where, text))
     return found

@@ -13,11 +13,14 @@ from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.cover import pairs, pieces, uncovered
 from foldmill_fabricate.verify.drawing import Drawing
-from foldmill_fabricate.verify.interpreter import Trace, interpret
+from foldmill_fabricate.verify.interpreter import Trace
+from foldmill_fabricate.verify.languages import replay
 from foldmill_fabricate.verify.limits import outside
+from foldmill_fabricate.verify.offsets import wrong_offset
 from foldmill_fabricate.verify.planned import Planned, at, planned, program_files
+from foldmill_fabricate.verify.steering import steered
 from foldmill_fabricate.verify.suspects import find_cause
-from foldmill_fabricate.verify.virtual_sheet import Line, lines, modelled_offset, on_carrier
+from foldmill_fabricate.verify.virtual_sheet import Line, modelled_offset, to_carrier
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +30,8 @@ class Replay:
     file: ProgramFile
     trace: Trace
     drawing: Drawing
+    steering: tuple[Finding, ...]
+    """What is wrong with how the blade was led."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +53,11 @@ def prove_programs(plan: Plan, programs: Mapping[str, bytes], fit: Fit | None) -
             continue
         data = programs[file.name]
         findings += _hash_findings(file, data, fit)
-        replay = _replay(plan, file, data, strokes, fit)
-        replays.append(replay)
-        findings += [*replay.trace.findings, *outside(plan, file.name, replay.trace)]
-        findings += _drawing_findings(plan, replay, strokes, fit)
+        replayed = _replay(plan, file, data, strokes, fit)
+        replays.append(replayed)
+        findings += [*replayed.trace.findings, *outside(plan, file.name, replayed.trace)]
+        findings += replayed.steering
+        findings += _drawing_findings(plan, replayed, strokes, fit)
     return ProgramProof(tuple(replays), tuple(findings))
 
 
@@ -104,23 +110,23 @@ def _hash_findings(file: ProgramFile, data: bytes, fit: Fit | None) -> list[Find
 def _replay(
     plan: Plan, file: ProgramFile, data: bytes, strokes: Sequence[Planned], fit: Fit | None
 ) -> Replay:
-    tools = plan.machine.tools
-    trace = interpret(data, file.name, selects=tools.selects)
+    trace = replay(data, file.name, plan.machine)
     own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
-    drawn = lines(trace, plan, file.face, file.name, fit)
-    return Replay(file, trace, Drawing(plan, file.name, drawn, own))
+    drawn = steered(trace, plan, file, fit)
+    return Replay(file, trace, Drawing(plan, file.name, drawn.lines, own), drawn.findings)
 
 
 def _drawing_findings(
     plan: Plan, replay: Replay, strokes: Sequence[Planned], fit: Fit | None
 ) -> list[Finding]:
     drawing = replay.drawing
-    if drawing.faulty_share() > tolerances.MISFIT:
-        carrier = [on_carrier(run.points, plan.machine.axes) for run in replay.trace.runs]
+    cause = wrong_offset(drawing, replay.file.face, fit) if drawing.faulty_share() else None
+    if cause is None and drawing.faulty_share() > tolerances.MISFIT:
+        carrier = [to_carrier(line.points, plan, replay.file.face, fit) for line in drawing.lines]
         reach = 2 * drawing.tolerance + modelled_offset(plan.machine)
         cause = find_cause(plan, replay.file, carrier, strokes, fit, reach)
-        if cause is not None:
-            return [cause.finding(replay.file.name)]
+    if cause is not None:
+        return [cause.finding(replay.file.name)]
     elsewhere = _elsewhere(replay, strokes)
     found = [*elsewhere.values(), *drawing.findings(set(elsewhere)), *_dips(replay)]
     return found + _tool_findings(plan, drawing) + _order_findings(drawing)
@@ -206,7 +212,8 @@ _HALF_FS = 0.5
 def _order_findings(drawing: Drawing) -> list[Finding]:
     """Name the first stroke that is drawn after one that must come later."""
     owner = drawing.strokes_of_pieces
-    known = np.flatnonzero(owner >= 0)
+    # where strokes meet a short piece lies on both, and says nothing of their order
+    known = np.flatnonzero((owner >= 0) & (drawing.drawn.lengths > 2 * drawing.tolerance))
     ranks = np.array([stroke.rank for stroke in drawing.strokes], np.intp)
     sequence = ranks[owner[known]]
     late = np.flatnonzero(sequence < np.maximum.accumulate(sequence))

@@ -11,6 +11,7 @@ from foldmill_fabricate.passes import Hole, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import NOWHERE, Asked
 from foldmill_fabricate.verify.planned import Planned, at
+from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 from foldmill_fabricate.verify.waste import is_rim
 
 LEAST = 1.5
@@ -21,7 +22,10 @@ def prove_relief(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
     """Compare declared relief holes with their strokes, and with the vertices they belong to."""
     rims = [stroke for stroke in strokes if stroke.role is Role.RELIEF]
     reliefs = asked.plan.reliefs
-    owners = [[k for k, hole in enumerate(reliefs) if is_rim(stroke, hole)] for stroke in rims]
+    offset = modelled_offset(asked.plan.machine)
+    owners = [
+        [k for k, hole in enumerate(reliefs) if is_rim(stroke, hole, offset)] for stroke in rims
+    ]
     found = [
         _error("no-such-relief", f"{stroke} at {at(stroke.points[0])}", "It cuts no declared hole.")
         for stroke, own in zip(rims, owners, strict=True)

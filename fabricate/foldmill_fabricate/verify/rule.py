@@ -8,6 +8,7 @@ from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify.asked import Asked
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
+from foldmill_fabricate.verify.lead_ins import prove_lead_ins
 from foldmill_fabricate.verify.planned import planned
 from foldmill_fabricate.verify.process import prove_process
 from foldmill_fabricate.verify.relief import prove_relief
@@ -24,4 +25,5 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
         *prove_cuts(asked, strokes),
         *prove_relief(asked, strokes),
         *prove_waste(asked, strokes),
+        *prove_lead_ins(asked),
     ]

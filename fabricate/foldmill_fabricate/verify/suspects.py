@@ -51,10 +51,10 @@ def find_cause(
     """
     own = [stroke for stroke in strokes if stroke.setup.number in file.setups]
     planned = [to_carrier(stroke.points, plan, file.face, fit) for stroke in own]
-    if _explained(planned, drawn, reach) >= tolerances.EXPLAINED:
+    if explained(planned, drawn, reach) >= tolerances.EXPLAINED:
         return None  # a few strokes are at fault, not the whole
     for cause, expected in _exact_suspects(plan, file, strokes, own, fit):
-        if _explained(expected, drawn, reach) >= tolerances.EXPLAINED:
+        if explained(expected, drawn, reach) >= tolerances.EXPLAINED:
             return cause
     return _distortion(plan, planned, drawn, reach)
 
@@ -122,7 +122,7 @@ def _turned(points: Floats, plan: Plan, kind: str) -> Floats:
     return carrier
 
 
-def _explained(expected: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> float:
+def explained(expected: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> float:
     """Return which share of the corners of either lies on the other."""
     if not expected or not drawn:
         return 0.0
@@ -150,7 +150,7 @@ def _distortion(
         turn, shift = _fitted(goal, found, solve)
         moved = [points @ turn.T + shift for points in expected]
         far = np.hypot(*(goal @ turn.T + shift - goal).T).max() > reach
-        if far and _explained(moved, drawn, reach) >= tolerances.EXPLAINED:
+        if far and explained(moved, drawn, reach) >= tolerances.EXPLAINED:
             middle = goal.mean(axis=0)
             return _named(plan, turn, middle, turn @ middle + shift)
     return None

@@ -8,6 +8,19 @@ BLADE_MM: Final = 0.02
 """mm. What making up for a blade's offset may leave; added to one plotter step, and only where the
 blade is modelled: a machine that makes up for it itself is told the plan's own points."""
 
+SETTLED_MM: Final = 0.002
+"""mm. How far apart tips may be after a lead-in that pointed variously before it: a tenth of what
+making up for the offset may leave."""
+
+SHARP_DEG: Final = 30.0
+"""deg. Where the blade is to be lifted out for it, it is not turned by more in the material; five
+degrees more are allowed, for rounding to steps."""
+
+FACETTED: Final = 3.0
+"""Offsets. A hole of a smaller radius is cut in facets, so that the blade can follow."""
+
+LEAST_FACETS: Final = 6
+
 PLAN_MM: Final = 1e-3
 """mm. A plan's lines lie on the pattern's within this: a 25th of the finest plotter step, and far
 above what writing a number down and reading it again can change."""
@@ -18,6 +31,9 @@ UNEVEN_MM: Final = 0.01
 SLACK_STEPS: Final = 4.0
 """Plotter steps. Shorter stretches of a stroke may be passed once more or less often than asked,
 because both ends of every piece are rounded to steps."""
+
+SLACK_BLADE: Final = 5.0
+"""Times BLADE_MM. The same for a dragged blade, which goes to and fro a little at corners."""
 
 BESIDE_MM: Final = 1.0
 """mm. A line this near to a lost stroke is that stroke, moved: closer than creases lie together."""

@@ -9,6 +9,7 @@ from foldmill import Assignment, CreasePattern
 from foldmill.finding import Finding, Severity, has_errors
 from foldmill_fabricate.passes import Face, Fit, Plan
 from foldmill_fabricate.verify.asked import FACES, Asked
+from foldmill_fabricate.verify.faults import Fault, drawn_faults, planned_faults
 from foldmill_fabricate.verify.planned import planned
 from foldmill_fabricate.verify.programs import ProgramProof, prove_programs
 from foldmill_fabricate.verify.rule import prove_rule
@@ -49,6 +50,8 @@ class Verification:
     figures: Figures
     lines: tuple[Line, ...]
     """The virtual sheet: everything drawn, in order of work, in sheet coordinates."""
+    faults: tuple[Fault, ...] = ()
+    """The lines that are missing, extra or moved, for a picture."""
 
     @property
     def ok(self) -> bool:
@@ -72,7 +75,13 @@ def verify(
     findings = _digest([*own, *proof.findings, *prove_rule(plan, pattern)])
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
-    return Verification(plan.title, findings, figures, lines)
+    faults = _faults(plan, pattern, proof) if has_errors(findings) else ()
+    return Verification(plan.title, findings, figures, lines, faults)
+
+
+def _faults(plan: Plan, pattern: CreasePattern, proof: ProgramProof) -> tuple[Fault, ...]:
+    drawn = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
+    return (*drawn, *planned_faults(Asked(plan, pattern), planned(plan)))
 
 
 def _digest(findings: Sequence[Finding]) -> tuple[Finding, ...]:

@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foldmill_fabricate.machines import Axes, Machine
 from foldmill_fabricate.passes import Face, Fit, Flip, Plan
-from foldmill_fabricate.verify.blade import tips
-from foldmill_fabricate.verify.interpreter import Run, Trace
+from foldmill_fabricate.verify.interpreter import Run
 
 Floats = NDArray[np.float64]
 
@@ -34,21 +33,13 @@ class Line:
     """What the program said."""
 
 
-def lines(trace: Trace, plan: Plan, face: Face, program: str, fit: Fit | None) -> tuple[Line, ...]:
-    """Return what a program draws on the sheet, in order of work."""
-    carrier = [on_carrier(run.points, plan.machine.axes) for run in trace.runs]
-    offset = modelled_offset(plan.machine)
-    if offset > 0:
-        carrier = tips(carrier, offset)
-    return tuple(
-        Line(on_sheet(points, plan, face, fit), face, program, run)
-        for points, run in zip(carrier, trace.runs, strict=True)
-    )
-
-
 def modelled_offset(machine: Machine) -> float:
-    """Return the distance from blade axis to tip, mm; 0 where the machine makes up for it."""
-    return 0.0 if machine.tools.firmware_offset else machine.tools.blade_offset
+    """Return the distance from blade axis to tip, mm; 0 where the machine makes up for it.
+
+    A pen or a laser has none.
+    """
+    tools = machine.tools
+    return 0.0 if tools.firmware_offset or not tools.trails else tools.blade_offset
 
 
 def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:

@@ -13,7 +13,7 @@ from foldmill_fabricate.passes import Hole, Plan, Role
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import Asked
 from foldmill_fabricate.verify.planned import Planned, at
-from foldmill_fabricate.verify.virtual_sheet import turned_over
+from foldmill_fabricate.verify.virtual_sheet import modelled_offset, turned_over
 
 Floats = NDArray[np.float64]
 
@@ -113,18 +113,31 @@ def _hole_strokes(plan: Plan, strokes: Sequence[Planned]) -> list[Finding]:
 
 def _hole_of(plan: Plan, stroke: Planned) -> int | None:
     """Return the hole whose rim a stroke follows once around; None for none."""
-    return next((k for k, hole in enumerate(plan.holes) if is_rim(stroke, hole)), None)
+    offset = modelled_offset(plan.machine)
+    return next((k for k, hole in enumerate(plan.holes) if is_rim(stroke, hole, offset)), None)
 
 
-def is_rim(stroke: Planned, hole: Hole) -> bool:
-    """Tell whether a stroke follows the rim of a hole once around."""
+def is_rim(stroke: Planned, hole: Hole, offset: float) -> bool:
+    """Tell whether a stroke follows a hole's rim once around, as a blade of this offset can."""
     arms = stroke.points - (hole.x, hole.y)
     middles = (arms[1:] + arms[:-1]) / 2
     radii = np.hypot(*np.vstack([arms, middles]).T)
     cross = arms[:-1, 0] * arms[1:, 1] - arms[:-1, 1] * arms[1:, 0]
     turn = np.abs(np.arctan2(cross, (arms[:-1] * arms[1:]).sum(axis=1)).sum())
-    is_round = bool(np.abs(radii - hole.diameter / 2).max() <= tolerances.ROUND_MM)
+    is_round = _is_round(radii, hole.diameter / 2, offset)
     return is_round and bool(abs(turn - 2 * np.pi) < 1e-6) and stroke.closed
+
+
+def _is_round(radii: Floats, radius: float, offset: float) -> bool:
+    """Tell whether corners and middles of facets lie on a circle, as well as a blade can follow.
+
+    Where it needs long facets, they touch the circle from outside: a pin of its diameter fits.
+    """
+    if radius >= tolerances.FACETTED * offset:
+        return bool(np.abs(radii - radius).max() <= tolerances.ROUND_MM)
+    most = radius / np.cos(np.pi / tolerances.LEAST_FACETS)
+    fits = radii.min() >= radius - tolerances.PLAN_MM
+    return bool(fits and radii.max() <= most + tolerances.PLAN_MM)
 
 
 def _one_hole(plan: Plan, hole: Hole, where: str, part: Any) -> list[Finding]:

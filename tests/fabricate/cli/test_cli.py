@@ -243,7 +243,8 @@ def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
     foldmill("plan", "stool.fold", "-o", "job")
     program = Path("job/2-front-score.hpgl")
     program.write_bytes(program.read_bytes().replace(b"PD", b"PU", 1))
-    assert foldmill("verify", "job").code == 1
+    assert foldmill("verify", "job", "--picture", "wrong.png").code == 1
+    assert Path("wrong.png").read_bytes().startswith(b"\x89PNG")
     told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes")
     assert told.code == 2
     assert "does not verify" in told.err

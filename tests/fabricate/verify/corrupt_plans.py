@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import hypot
 
 from fabricate.verify.square_job import Job, emit, recorded
 
-from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp, Stroke
+from foldmill_fabricate.passes import XY, Face, Gate, Operation, Plan, Role, SetUp, Stroke
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,40 @@ def a_tie_is_not_left(plan: Plan) -> Plan:
         return _with_strokes(operation, (Stroke(points=one.points + two.points), *more))
 
     return _edited(Role.CUT_OUTER, joined)(plan)
+
+
+def a_tie_is_in_a_corner(plan: Plan) -> Plan:
+    """Shift the first tie along its edge until it ends 1 mm before the next corner."""
+    tie = plan.ties[0]
+    corner, away = _first_edge(plan)
+
+    def shifted(operation: Operation) -> Operation:
+        first, *more, last = operation.strokes
+        end = _before(corner, away, 1.0 + tie.width)
+        first = Stroke(points=(_before(corner, away, 1.0), *first.points[1:]))
+        last = Stroke(points=(*last.points[:-1], end))
+        return _with_strokes(operation, (first, *more, last))
+
+    x, y = _before(corner, away, 1.0 + tie.width / 2)
+    moved = tie.model_copy(update={"x": x, "y": y})
+    plan = plan.model_copy(update={"ties": (moved, *plan.ties[1:])})
+    return _edited(Role.CUT_OUTER, shifted)(plan)
+
+
+def _first_edge(plan: Plan) -> tuple[XY, XY]:
+    """Return the first corner of the outline and where its first stroke comes from."""
+    for setup in plan.passes[-1].setups:
+        for operation in setup.operations:
+            if operation.role is Role.CUT_OUTER:
+                points = operation.strokes[0].points
+                return points[1], points[0]
+    raise LookupError("no outline")
+
+
+def _before(corner: XY, away: XY, gap: float) -> XY:
+    (x, y), (u, v) = corner, away
+    share = gap / hypot(u - x, v - y)
+    return x + share * (u - x), y + share * (v - y)
 
 
 def a_part_hangs_on_two_ties(plan: Plan) -> Plan:
@@ -210,6 +245,7 @@ PLANS: dict[Callable[[Plan], Plan], str] = {
     a_score_runs_into_a_vertex: "setback",
     a_tie_is_not_declared: "missing-cut",
     a_tie_is_not_left: "tie-cut",
+    a_tie_is_in_a_corner: "tie-corner",
     a_part_hangs_on_two_ties: "too-few-ties",
     a_hole_is_too_near_the_edge: "hole-clearance",
     a_hole_is_not_cut: "hole-strokes",

@@ -19,7 +19,7 @@ from foldmill_fabricate.plotter.simulator.parser import (
     WRONG_COUNT,
     Unit,
 )
-from foldmill_fabricate.toolpath.motion import move_seconds
+from foldmill_fabricate.toolpath.motion import Pace, move_seconds
 
 _P1_P2 = "250,279,10250,7479"
 _MOST_TOOLS = 99
@@ -60,6 +60,7 @@ class Carriage:
         self.tool = 0
         self.force: float | None = None
         self.down = False
+        self._pace = Pace(machine.motion)
         self._initialised = 8  # in the status byte until OS has told it
         self._drawn_since_in = False
         self._defaults()
@@ -174,29 +175,31 @@ class Carriage:
         if not all(axes.lowest <= each <= axes.highest for each in to):
             self._wrong(OUT_OF_RANGE)
             return 0.0
-        length = hypot(to[0] - self.at[0], to[1] - self.at[1]) / axes.units_per_mm
-        if self.down:
-            self._mark()
-            self.sheet.move(to)
-        self.at = to
-        speed = self.speed if self.down else motion.travel_speed
-        return float(move_seconds(length, speed, motion.acceleration))
+        dx, dy = ((new - old) / axes.units_per_mm for new, old in zip(to, self.at, strict=True))
+        self.at, before = to, self.at
+        if not self.down:
+            length = hypot(dx, dy)
+            return float(move_seconds(length, motion.travel_speed, motion.acceleration))
+        self._mark(before)
+        self.sheet.move(to)
+        return self._pace.go_on(dx, dy, self.speed)
 
     def _set_pen(self, down: bool) -> float:
         if down == self.down:
             return 0.0
         self.down = down
+        self._pace.stop()
         if down:
-            self._mark()
+            self._mark(self.at)
         else:
             self.sheet.lift()
         return self.machine.motion.lift_time
 
-    def _mark(self) -> None:
-        """The tool is in the sheet here, if there is a tool."""
+    def _mark(self, at: Step) -> None:
+        """The tool is in the sheet there, if there is a tool."""
         self._drawn_since_in = True
         if self.tool or self.machine.tools.change == "operator":
-            self.sheet.lower(self.at, self.tool, self.speed, self.force)
+            self.sheet.lower(at, self.tool, self.speed, self.force)
         else:
             self.tally.without_tool += 1
 

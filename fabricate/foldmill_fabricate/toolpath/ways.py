@@ -1,0 +1,48 @@
+"""What a machine is told to do in one set-up: the ways of its tool, or of the tool's holder.
+
+Where the machine makes up for a blade's offset, or the tool has none, these are the ways of the
+tip. Elsewhere they are the holder's, a lead-in first. They are worked out as the machine sees the
+sheet: a mirrored holder's way would not lead a blade along the mirrored line it starts on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.passes import SetUp
+from foldmill_fabricate.toolpath import knife
+from foldmill_fabricate.toolpath.traversal import traversal
+
+Floats = NDArray[np.float64]
+See = Callable[[ArrayLike], Floats]
+
+
+class Way(NamedTuple):
+    """One motion with the tool down."""
+
+    points: Floats
+    """(n, 2) mm, as the machine sees the sheet."""
+    light: bool = False
+    """Whether the blade only rests on the sheet, to be turned."""
+
+
+def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
+    """Return the ways of a set-up in order of work; see : sheet points (n, 2) to the machine's."""
+    tips = [
+        see(traversal(stroke, operation))
+        for operation in setup.operations
+        for stroke in operation.strokes
+    ]
+    offset = machine.tools.host_offset
+    if not offset:
+        return [Way(tip) for tip in tips]
+    entry = [Way(see(setup.lead_in))] if setup.lead_in else []
+    heading = knife.last_heading(entry[0].points) if entry else 0.0
+    if setup.swivel_force:
+        return entry + [Way(*way) for way in knife.lifted_ways(tips, offset, heading)]
+    return entry + [Way(way) for way in knife.holder_ways(tips, offset, heading)]
