@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foldmill.axisymmetric import rosette, strip
 from foldmill.axisymmetric.points import FreePoint, LinePoint
@@ -18,6 +19,7 @@ from foldmill.axisymmetric.rosette import EdgeSigns, HalfWedge, Rosette, Seat
 from foldmill.errors import InvalidInput
 from foldmill.tolerances import CLOSED_DEG, NEARLY_CLOSED_DEG, OFF_AXIS, ON_LINE
 
+Floats = NDArray[np.float64]
 Points = Mapping[int, LinePoint | FreePoint]
 
 
@@ -26,6 +28,8 @@ def signs(half: HalfWedge, phi: float, points: Points) -> EdgeSigns:
 
     half : the strip's triangles alone; phi : deg; points : as for ``strip.solve``.
     """
+    if phi == _ajar(phi) and not _on_axis(half).any():
+        return {}
     rose = rosette.assemble(half)
     return off_axis(rose) | _by_opening(rose, phi, points)
 
@@ -36,21 +40,39 @@ def off_axis(whole: Rosette) -> EdgeSigns:
     None where the form is on both sides of its axis.
     """
     half = whole.half
-    azimuth = np.where([seat is Seat.L2 for seat in half.seats], np.pi / half.order, 0.0)
-    outward = np.column_stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)])
+    outward = _outward(half)
     radii = np.einsum("ij,ij->i", outward, half.spatial)
     size = float(np.abs(half.spatial).max())
-    off = np.abs(radii) > ON_LINE * size
-    sides = np.unique(np.sign(radii[off]))
-    on_axis = ~off & np.array([seat is not Seat.CENTRE for seat in half.seats])
+    sides = np.unique(np.sign(radii[np.abs(radii) > ON_LINE * size]))
+    on_axis = _on_axis(half)
     if len(sides) != 1 or not on_axis.any():
         return {}
     step = on_axis[:, None] * (OFF_AXIS * size * sides[0]) * outward
     return _of(whole.moved(replace(half, spatial=half.spatial + step)))
 
 
+def _outward(half: HalfWedge) -> Floats:
+    """Return the unit vectors (P, 3) away from the axis in the plane of each point."""
+    azimuth = np.where([seat is Seat.L2 for seat in half.seats], np.pi / half.order, 0.0)
+    return np.column_stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)])
+
+
+def _on_axis(half: HalfWedge) -> NDArray[np.bool_]:
+    """Tell which points lie on the axis, the centre not counted."""
+    radii = np.einsum("ij,ij->i", _outward(half), half.spatial)
+    size = float(np.abs(half.spatial).max())
+    away_from_centre = np.array([seat is not Seat.CENTRE for seat in half.seats])
+    near: NDArray[np.bool_] = (np.abs(radii) <= ON_LINE * size) & away_from_centre
+    return near
+
+
+def _ajar(phi: float) -> float:
+    """Return the angle nearest to φ at which the innermost creases are not closed, deg."""
+    return min(max(phi, NEARLY_CLOSED_DEG), 180 - NEARLY_CLOSED_DEG)
+
+
 def _by_opening(rose: Rosette, phi: float, points: Points) -> EdgeSigns:
-    near = min(max(phi, NEARLY_CLOSED_DEG), 180 - NEARLY_CLOSED_DEG)
+    near = _ajar(phi)
     if near == phi:
         return {}
     try:
