@@ -7,6 +7,7 @@ There are numbers, u, v, pi, e, + − * / **, signs, brackets and the functions 
 from __future__ import annotations
 
 import ast
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ LONGEST = 500
 """Characters of an expression."""
 DEEPEST = 100
 """Brackets and operations within each other."""
-NAMES = {"pi": float(np.pi), "e": float(np.e)}
+NAMES = {"pi": math.pi, "e": math.e}
 _OPERATIONS: dict[type[ast.operator], str] = {
     ast.Add: "+",
     ast.Sub: "-",
