@@ -85,7 +85,14 @@ def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[st
         return f"{name}.{key} must be one of '{known}', not {context['tag']!r}."
     said = fault["msg"].removeprefix("Value error, ").rstrip(".")
     shown = "" if isinstance(fault["input"], (Mapping, list, tuple)) else f" (got {_given(fault)})"
-    return f"{name}: {said}{shown}." if name else f"{said[:1].upper()}{said[1:]}."
+    return f"{name}: {said}{shown}." if name else f"{_opened(said)}."
+
+
+def _opened(said: str) -> str:
+    """Begin a sentence with a capital, unless it begins with the name of a parameter."""
+    first = said.split(" ", 1)[0]
+    is_name = "_" in first or "." in first or first.endswith(":")
+    return said if is_name else f"{said[:1].upper()}{said[1:]}"
 
 
 def _given(fault: Mapping[str, Any]) -> str:
