@@ -150,6 +150,10 @@ class CreasePattern:
 
     def outline(self) -> list[Indices]:
         """Return the boundary loops as vertex indices, outermost first, counter-clockwise."""
+        return [loop.copy() for loop in self._loops]
+
+    @cached_property
+    def _loops(self) -> list[Indices]:
         return planar.loops(self.vertices, self.edges[self.assignments == Assignment.B])
 
 

@@ -88,6 +88,10 @@ def _key(point: int, seat: Seat, turn: int, mirrored: bool, order: int) -> Verte
     return (point, (turn - (mirrored and seat is Seat.L2)) % order, False)
 
 
+_TOPOLOGY = ("edge_faces", "edge_origins", "rim")
+"""What a rosette knows of itself whatever the positions are."""
+
+
 @dataclass(frozen=True, eq=False)
 class Rosette:
     """A half wedge, mirrored and turned: the welded topology, and where each vertex came from."""
@@ -127,7 +131,7 @@ class Rosette:
         """(S, 2) vertices that are two in the pattern and one in the closed form."""
         return np.zeros((0, 2), np.intp)
 
-    @property
+    @cached_property
     def rim(self) -> Indices:
         """The vertices of the outline, ascending."""
         return np.unique(self.edges[(self.edge_faces < 0).any(axis=1)])
@@ -139,8 +143,11 @@ class Rosette:
         return ends
 
     def moved(self, half: HalfWedge) -> Rosette:
-        """Return the same topology over other positions."""
-        return replace(self, half=half)
+        """Return the same topology over other positions; what follows from it alone is kept."""
+        other = replace(self, half=half)
+        known = {name: self.__dict__[name] for name in _TOPOLOGY if name in self.__dict__}
+        other.__dict__.update(known)
+        return other
 
     def wedge_faces(self, faces: Indices) -> Indices:
         """Return the faces of the first wedge, plain and mirrored, by their half-wedge numbers."""
