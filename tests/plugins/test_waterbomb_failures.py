@@ -6,17 +6,16 @@ Each has its sentence and its exit code, and nothing is written unless it is for
 from __future__ import annotations
 
 import json
-import sys
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from command import Run
 
 import foldmill
 from foldmill.registry import load
-from foldmill_fabricate.cli import main
 from foldmill_plugins.waterbomb import DESIGN
 from foldmill_plugins.waterbomb.build import Build
 
@@ -27,18 +26,15 @@ POINTS = [
 
 
 class Typed:
-    """Call the command in this process, as a shell would, in an empty folder."""
+    """Call ``foldmill design waterbomb`` in an empty folder."""
 
-    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-        self.capsys, self.monkeypatch = capsys, monkeypatch
+    def __init__(self, run: Run) -> None:
+        self.run = run
 
     def __call__(self, *words: str) -> tuple[int, str]:
-        self.monkeypatch.setattr(sys, "argv", ["foldmill", "design", "waterbomb", *words])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        said = self.capsys.readouterr()
-        assert "Traceback" not in said.err
-        return int(stop.value.code or 0), said.out + said.err
+        told = self.run("design", "waterbomb", *words)
+        assert "Traceback" not in told.err
+        return told.code, told.out + told.err
 
 
 @pytest.fixture
@@ -48,7 +44,7 @@ def typed(
     monkeypatch.chdir(tmp_path)
     registry = load(POINTS)
     monkeypatch.setattr(foldmill, "installed", lambda: registry)
-    return Typed(capsys, monkeypatch)
+    return Typed(Run(capsys, monkeypatch))
 
 
 def words(**values: object) -> list[str]:

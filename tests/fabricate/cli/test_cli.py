@@ -10,38 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from command import Run
 
-from foldmill_fabricate.cli import main
 from foldmill_fabricate.cli.running import stopping_on_signals
-
-
-class Told:
-    """What a run of the command said."""
-
-    def __init__(self, code: int, out: str, err: str) -> None:
-        self.code, self.out, self.err = code, out, err
-
-
-@pytest.fixture
-def foldmill(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return Run(capsys, monkeypatch)
-
-
-class Run:
-    """Call the command in this process, as a shell would."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-        self.capsys, self.monkeypatch = capsys, monkeypatch
-
-    def __call__(self, *words: str) -> Told:
-        self.monkeypatch.setattr(sys, "argv", ["foldmill", *words])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        said = self.capsys.readouterr()
-        return Told(int(stop.value.code or 0), said.out, said.err)
 
 
 def test_the_whole_way_from_parameters_to_a_simulated_plotter(foldmill: Run) -> None:

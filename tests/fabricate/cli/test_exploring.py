@@ -8,38 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from command import Run
 
-from foldmill_fabricate.cli import main
 from foldmill_fabricate.cli.progress import SweepProgress
 
 SWEEP = ("explore", "rotational", "--vary", "phi=30:90:5", "--jobs", "1")
-
-
-class Told:
-    def __init__(self, code: int, out: str, err: str) -> None:
-        self.code, self.out, self.err = code, out, err
-
-
-class Run:
-    """Call the command in this process, as a shell would."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-        self.capsys, self.monkeypatch = capsys, monkeypatch
-
-    def __call__(self, *words: str) -> Told:
-        self.monkeypatch.setattr(sys, "argv", ["foldmill", *words])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        said = self.capsys.readouterr()
-        return Told(int(stop.value.code or 0), said.out, said.err)
-
-
-@pytest.fixture
-def foldmill(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return Run(capsys, monkeypatch)
 
 
 def test_a_sweep_gives_its_table_its_map_its_summary_and_the_fold_of_a_pick(foldmill: Run) -> None:

@@ -3,39 +3,15 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
-
-from foldmill_fabricate.cli import main
+from command import Run
 
 SMALL = ("--evaluations", "60", "--jobs", "1", "--results", "2")
 
 
-class Foldmill:
-    """Call the command in this process, as a shell would."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-        self.capsys, self.monkeypatch = capsys, monkeypatch
-
-    def __call__(self, *words: str) -> tuple[int, str, str]:
-        self.monkeypatch.setattr(sys, "argv", ["foldmill", *words])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        said = self.capsys.readouterr()
-        return int(stop.value.code or 0), said.out, said.err
-
-
-@pytest.fixture
-def foldmill(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> Foldmill:
-    monkeypatch.chdir(tmp_path)
-    return Foldmill(capsys, monkeypatch)
-
-
-def test_a_search_writes_its_forms_a_table_and_a_picture(foldmill: Foldmill) -> None:
+def test_a_search_writes_its_forms_a_table_and_a_picture(foldmill: Run) -> None:
     Path("out").mkdir()
     Path("out/results.json").write_text('{"results": [1, 2, 3, 4, 5, 6]}')
     Path("out/6.fold").write_text("an older one")
@@ -52,7 +28,7 @@ def test_a_search_writes_its_forms_a_table_and_a_picture(foldmill: Foldmill) -> 
     assert foldmill("plan", "out/1.fold", "-o", "job")[0] == 0
 
 
-def test_what_is_given_is_kept(foldmill: Foldmill) -> None:
+def test_what_is_given_is_kept(foldmill: Run) -> None:
     words = (
         "--target",
         "height=60±20%",
@@ -70,7 +46,7 @@ def test_what_is_given_is_kept(foldmill: Foldmill) -> None:
         assert each["params"]["phi"] == 75
 
 
-def test_targets_that_are_not_met_end_with_one_and_by_how_much(foldmill: Foldmill) -> None:
+def test_targets_that_are_not_met_end_with_one_and_by_how_much(foldmill: Run) -> None:
     words = ("--target", "height=200", "--sheet", "160x160", "--preset", "bowl-n8")
     code, out, _ = foldmill("search", "rotational", *words, *SMALL)
     assert code == 1
@@ -98,7 +74,7 @@ def test_targets_that_are_not_met_end_with_one_and_by_how_much(foldmill: Foldmil
     ],
 )
 def test_wrong_input_is_one_sentence_and_exit_code_two(
-    foldmill: Foldmill, words: tuple[str, ...], said: str
+    foldmill: Run, words: tuple[str, ...], said: str
 ) -> None:
     code, out, err = foldmill("search", "rotational", *words)
     assert code == 2
@@ -107,13 +83,13 @@ def test_wrong_input_is_one_sentence_and_exit_code_two(
     assert not out
 
 
-def test_a_seat_is_refused_at_once_where_no_form_has_one(foldmill: Foldmill) -> None:
+def test_a_seat_is_refused_at_once_where_no_form_has_one(foldmill: Run) -> None:
     code, _, err = foldmill("search", "six-crease", "--target", "seat=120", "--preset", "ball")
     assert code == 2
     assert err.startswith("foldmill: No form of six-crease to start from has a seat")
 
 
-def test_a_number_of_wedges_that_is_refused_is_refused_alone(foldmill: Foldmill) -> None:
+def test_a_number_of_wedges_that_is_refused_is_refused_alone(foldmill: Run) -> None:
     for order in ("2", "0", "-5"):
         words = ("--target", "height=150", "--preset", "stool-n8", "--n", order)
         code, _, err = foldmill("search", "tuck", *words)
@@ -122,7 +98,7 @@ def test_a_number_of_wedges_that_is_refused_is_refused_alone(foldmill: Foldmill)
         assert "points" not in err
 
 
-def test_an_unknown_family_tells_those_there_are(foldmill: Foldmill) -> None:
+def test_an_unknown_family_tells_those_there_are(foldmill: Run) -> None:
     code, _, err = foldmill("search", "bowl", "--target", "height=80")
     assert code == 2
     assert "rotational" in err
