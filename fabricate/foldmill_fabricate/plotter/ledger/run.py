@@ -1,0 +1,37 @@
+"""A run of a program: the one hand that may write what was sent and what was confirmed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from foldmill_fabricate.plotter.ledger.values import State
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.plotter.ledger.ledger import Ledger
+
+
+class Run:
+    """Holds a program's token. Every call raises Fenced once somebody else holds it."""
+
+    def __init__(
+        self, ledger: Ledger, sheet: str, number: int, token: int, first: int, vertex: int
+    ) -> None:
+        self._ledger = ledger
+        self.sheet, self.number, self.token = sheet, number, token
+        self.first, self.vertex = first, vertex
+        self.sent = self.acked = first
+
+    def advance(self, sent: int, acked: int) -> None:
+        """Write down, before their bytes leave, that strokes before ``sent`` may be cut.
+
+        acked : strokes that the machine has confirmed. Neither ever falls. Nothing is written
+        where nothing has changed.
+        """
+        sent, acked = max(sent, self.sent), max(acked, self.acked)
+        if (sent, acked) != (self.sent, self.acked):
+            self._ledger.write(self, sent, acked)
+            self.sent, self.acked = sent, acked
+
+    def end(self, state: State, note: str = "") -> None:
+        """Give the token back; ``note`` : why, a sentence."""
+        self._ledger.end(self, state, note)
