@@ -21,7 +21,8 @@ XY = tuple[float, float]
 _INSTRUCTION = re.compile(rb"\s*[Ll][Bb][^\x03]*\x03;?\s*|[^;]*;\s*|[^;]+\Z", re.DOTALL)
 _FOREIGN = re.compile(rb"[^\x20-\x7e\r\n\t\x03]")
 _OUTPUT = re.compile(rb"\s*O[A-Z]", re.IGNORECASE)
-_PART = re.compile(rb"([A-Za-z])\s*([A-Za-z])([^A-Za-z;]*)")
+PART = re.compile(rb"([A-Za-z])\s*([A-Za-z])([^A-Za-z;]*)")
+"""One instruction inside a piece: its two letters and its parameters."""
 _COORDINATES = re.compile(rb"(\s*)(P[UDAR])([\d,+\-.\s]*);(\s*)\Z", re.IGNORECASE)
 _MOVES = (b"PU", b"PD", b"PA", b"PR")
 
@@ -138,8 +139,8 @@ class _Timer:
         seconds = 0.0
         if piece.lstrip()[:2].upper() != b"LB":
             try:
-                for first, second, rest in _PART.findall(piece):
-                    seconds += self._follow((first + second).upper(), _numbers(rest))
+                for first, second, rest in PART.findall(piece):
+                    seconds += self._follow((first + second).upper(), numbers(rest))
             except ValueError:
                 raise ProgramRefused(
                     f"Instruction {number} ({_shown(piece)}) holds something that is no number, or "
@@ -147,16 +148,16 @@ class _Timer:
                 ) from None
         return Instruction(piece, seconds, self.stroke)
 
-    def _follow(self, name: bytes, numbers: list[float]) -> float:
+    def _follow(self, name: bytes, given: list[float]) -> float:
         if name in _MOVES:
-            return self._move(name, numbers)
-        if name == b"VS" and numbers:
-            self.speed = max(numbers[0] * 10, 1e-3)
+            return self._move(name, given)
+        if name == b"VS" and given:
+            self.speed = max(given[0] * 10, 1e-3)
         if name == b"IN":
             self.relative, self.speed = False, self.machine.motion.travel_speed
         return self.machine.motion.tool_time if name == b"SP" else 0.0
 
-    def _move(self, name: bytes, numbers: list[float]) -> float:
+    def _move(self, name: bytes, given: list[float]) -> float:
         seconds = 0.0
         if name in (b"PA", b"PR"):
             self.relative = name == b"PR"
@@ -165,9 +166,9 @@ class _Timer:
             self.pace.stop()
             self.stroke += not self.down
             seconds = self.machine.motion.lift_time
-        if not numbers:
+        if not given:
             return seconds
-        steps = np.reshape(numbers, (-1, 2))  # raises ValueError for half a pair
+        steps = np.reshape(given, (-1, 2))  # raises ValueError for half a pair
         way = np.vstack([[self.at], np.cumsum(np.vstack([[self.at], steps]), 0)[1:]])
         if not self.relative:
             way[1:] = steps
@@ -186,15 +187,13 @@ def _divided(piece: bytes, limit: int, number: int) -> Iterator[bytes]:
     if not found:
         raise ProgramRefused(_too_long(piece, limit, number))
     lead, name, rest, tail = found.groups()
-    numbers = rest.replace(b" ", b"").split(b",")
-    if len(numbers) % 2:
+    flat = rest.replace(b" ", b"").split(b",")
+    if len(flat) % 2:
         raise ProgramRefused(
             f"Instruction {number} ({_shown(piece)}) holds half a pair of coordinates. "
             "Write the program again."
         )
-    yield from _packed(
-        zip(numbers[::2], numbers[1::2], strict=True), lead, name, tail, limit, number
-    )
+    yield from _packed(zip(flat[::2], flat[1::2], strict=True), lead, name, tail, limit, number)
 
 
 def _packed(
@@ -217,7 +216,8 @@ def _packed(
     yield line + b";" + tail
 
 
-def _numbers(text: bytes) -> list[float]:
+def numbers(text: bytes) -> list[float]:
+    """Return the parameters of an instruction; raises ValueError for what is no number."""
     stripped = text.strip()
     return [float(each) for each in stripped.split(b",")] if stripped else []
 
