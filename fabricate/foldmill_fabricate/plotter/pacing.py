@@ -25,6 +25,8 @@ CAUTION = 1.25
 LENT = 16
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
 time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
+OVERLAP = 10
+"""I/O error of a question that met another answer."""
 _LONGEST_NAP = 0.25
 """s between two questions."""
 _NAP = 0.02
@@ -97,6 +99,8 @@ class Asked:
         """Instructions that had left the buffer then."""
         self._asked: int | None = None
         """Instructions written before the open question."""
+        self._places = 0
+        """Positions heard before it."""
         self._progress = self._changed = self._asked_when = session.clock.now()
         """When an instruction was last seen to leave the buffer; when an answer last differed."""
 
@@ -147,12 +151,20 @@ class Asked:
 
     def _ask(self) -> None:
         if self._asked is None:
+            while self._session.hearing:  # two answers at once are an error of the machine
+                self._session.clock.sleep(self._session.byte_time)
             self._session.ask_free()
             self._asked, self._asked_when = self._sent, self._session.clock.now()
+            self._places = self._session.places
 
     def _wait(self) -> None:
         on_line = self._session.buffer * self._session.byte_time
-        answer = self._session.answer(self._asked_when + on_line + PATIENCE)
+        soon = self._asked_when + on_line + 4 * self._session.round_trip
+        answer = self._session.answer(soon)
+        if answer is None and self._session.places > self._places:
+            self._collided()
+            return
+        answer = answer or self._session.answer(self._asked_when + on_line + PATIENCE)
         if answer is None:
             raise NoAnswer(
                 f"The plotter has stopped answering after instruction {self._sent} of "
@@ -160,6 +172,15 @@ class Asked:
             )
         self._hear(answer)
         self._check_progress()
+
+    def _collided(self) -> None:
+        """Ask again: the question met the answer to OA, and was dropped for it."""
+        if self._session.io_error() not in {0, OVERLAP}:
+            raise NoAnswer(
+                "The machine reports that bytes were lost or garbled on the line. Check the cable "
+                "and the baud rate."
+            )
+        self._asked = None
 
     def _hear(self, answer: str | None) -> None:
         if answer is None or self._asked is None:

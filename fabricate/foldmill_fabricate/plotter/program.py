@@ -96,6 +96,10 @@ class Instruction:
     """of motion, by the machine's own figures"""
     stroke: int
     """0, 1, 2 …; a stroke begins where the tool is lifted or moved up"""
+    at: XY | None
+    """Where it leaves the tool, steps; None before the first motion."""
+    asks: bool = False
+    """Whether it is a question of the sender's own, answered with that place."""
 
 
 @dataclass(frozen=True)
@@ -105,11 +109,13 @@ class Job:
     parts: tuple[Instruction, ...]
     end: XY | None
     """Where the tool stands at the end, steps; None where it never moves."""
+    strokes: int
+    """How many there are, up to the last that draws."""
 
     @property
     def data(self) -> bytes:
-        """All bytes, in order."""
-        return b"".join(part.data for part in self.parts)
+        """All bytes of the program, in order."""
+        return b"".join(part.data for part in self.parts if not part.asks)
 
     @property
     def seconds(self) -> float:
@@ -121,7 +127,7 @@ def ready(program: bytes, machine: Machine) -> Job:
     """Find how long each instruction takes; raises ProgramRefused for what is no number."""
     timer = _Timer(machine)
     parts = [timer.timed(piece, number) for number, piece in enumerate(instructions(program), 1)]
-    return Job(tuple(parts), timer.at if timer.moved else None)
+    return Job(tuple(parts), timer.at if timer.moved else None, timer.strokes)
 
 
 class _Timer:
@@ -131,7 +137,7 @@ class _Timer:
         self.machine = machine
         self.at: XY = (0.0, 0.0)
         self.moved = self.down = self.relative = False
-        self.stroke = 0
+        self.stroke = self.strokes = 0
         self.speed = machine.motion.travel_speed
         self.pace = Pace(machine.motion)
 
@@ -146,7 +152,7 @@ class _Timer:
                     f"Instruction {number} ({_shown(piece)}) holds something that is no number, or "
                     "half a pair of coordinates. Write the program again."
                 ) from None
-        return Instruction(piece, seconds, self.stroke)
+        return Instruction(piece, seconds, self.stroke, self.at if self.moved else None)
 
     def _follow(self, name: bytes, given: list[float]) -> float:
         if name in _MOVES:
@@ -165,6 +171,7 @@ class _Timer:
             self.down = not self.down
             self.pace.stop()
             self.stroke += not self.down
+            self.strokes = self.stroke + self.down
             seconds = self.machine.motion.lift_time
         if not given:
             return seconds

@@ -19,6 +19,24 @@ _FRESH = (b"IN", b"DF")
 _WAYS = (b"PA", b"PU", b"PD")
 
 
+@dataclass(frozen=True)
+class Start:
+    """Where a program is begun, or taken up again."""
+
+    stroke: int = 0
+    vertex: int = 0
+    """Vertex of that stroke where the tool goes down."""
+    overlap: float = 0.0
+    """mm of the way before that vertex which are cut once more."""
+    again: tuple[int, ...] = ()
+    """Strokes that are drawn before, such as a lead-in that turns the blade."""
+
+    @property
+    def is_fresh(self) -> bool:
+        """Whether nothing is left out."""
+        return not (self.stroke or self.vertex)
+
+
 @dataclass
 class _Traced:
     """A stroke as it is drawn, and what was set before it."""
@@ -38,23 +56,13 @@ def vertices(job: Job, stroke: int) -> list[XY]:
     return _traced(job, stroke).path
 
 
-def rest(
-    job: Job,
-    machine: Machine,
-    limit: int,
-    stroke: int,
-    vertex: int = 0,
-    overlap: float = 0.0,
-    again: Sequence[int] = (),
-) -> Job:
-    """Return what is left of a program from a stroke on.
+def rest(job: Job, machine: Machine, limit: int, start: Start) -> Job:
+    """Return what is left of a program from a place on.
 
-    limit : longest instruction, bytes; vertex : that of the stroke where the tool goes down;
-    overlap : mm of the way before that vertex which are cut once more; again : strokes that are
-    drawn before, such as a lead-in that turns the blade. Strokes keep their numbers; what is drawn
-    before counts to the first. Raises ProgramRefused for a stroke or vertex that is not there.
+    limit : longest instruction, bytes. Strokes keep their numbers; what is drawn before counts to
+    the first. Raises ProgramRefused for a stroke or vertex that is not there.
     """
-    last = job.parts[-1].stroke
+    last, stroke, vertex = job.parts[-1].stroke, start.stroke, start.vertex
     if not 0 <= stroke <= last:
         raise ProgramRefused(f"The program has strokes 1 to {last + 1}, not {stroke + 1}.")
     found = _traced(job, stroke)
@@ -62,8 +70,8 @@ def rest(
         raise ProgramRefused(
             f"Stroke {stroke + 1} has vertices 0 to {max(0, len(found.path) - 1)}, not {vertex}."
         )
-    before = [_drawn(_traced(job, one).path) for one in again]
-    way = _drawn(_from(found.path, vertex, overlap * machine.axes.units_per_mm))
+    before = [_drawn(_traced(job, one).path) for one in start.again]
+    way = _drawn(_from(found.path, vertex, start.overlap * machine.axes.units_per_mm))
     begun = rechunk(b"".join([*found.settings, *before, way]), limit)
     after = [part for part in job.parts if part.stroke > stroke]
     timed = ready(begun + b"".join(part.data for part in after), machine)

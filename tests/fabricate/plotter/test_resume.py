@@ -58,7 +58,7 @@ def test_what_was_cut_and_the_rest_are_the_whole_program(
     stroke = data.draw(st.integers(0, last), label="stroke")
     path = resume.vertices(job, stroke)
     vertex = data.draw(st.integers(0, max(0, len(path) - 2)), label="vertex")
-    left = resume.rest(job, MACHINE, 1000, stroke, vertex)
+    left = resume.rest(job, MACHINE, 1000, resume.Start(stroke, vertex))
     found = drawn_by(left.data)
     before = len(whole) - len(found)
     assert b"IN" not in left.data
@@ -85,7 +85,7 @@ def test_an_overlap_goes_back_along_the_way_that_was_cut_and_no_further(
     vertex = data.draw(st.integers(0, len(path) - 1))
     steps = overlap * MACHINE.axes.units_per_mm
     before = length(path[: vertex + 1])
-    left = resume.rest(job, MACHINE, 1000, 0, vertex, overlap)
+    left = resume.rest(job, MACHINE, 1000, resume.Start(0, vertex, overlap))
     found = drawn_by(left.data)
     if vertex == len(path) - 1 and min(before, steps) < 0.5:
         return  # nothing, or less than a step, is left
@@ -97,7 +97,7 @@ def test_an_overlap_goes_back_along_the_way_that_was_cut_and_no_further(
 
 def test_a_lead_in_is_drawn_again_before_the_blade_goes_on() -> None:
     job = ready(program([((0, 0), [(200, 0)], 0), ((500, 500), [(900, 500)], 0)]), MACHINE)
-    left = resume.rest(job, MACHINE, 1000, 1, again=(0,))
+    left = resume.rest(job, MACHINE, 1000, resume.Start(1, again=(0,)))
     assert [run.points.tolist() for run in drawn_by(left.data)] == [
         [[0, 0], [200, 0]],
         [[500, 500], [900, 500]],
@@ -112,10 +112,10 @@ def test_a_lead_in_is_drawn_again_before_the_blade_goes_on() -> None:
 def test_what_is_not_there_is_not_gone_on_from(stroke: int, vertex: int, sentence: str) -> None:
     job = ready(program([((0, 0), [(200, 0)], 0), ((500, 500), [(900, 500)], 0)]), MACHINE)
     with pytest.raises(ProgramRefused, match=sentence):
-        resume.rest(job, MACHINE, 1000, stroke, vertex)
+        resume.rest(job, MACHINE, 1000, resume.Start(stroke, vertex))
 
 
 def test_relative_moves_are_not_gone_on_from() -> None:
     job = ready(b"IN;PA;PU10,10;PD20,20;PR;PU1,1;PD5,5;", MACHINE)
     with pytest.raises(ProgramRefused, match="relative"):
-        resume.rest(job, MACHINE, 1000, 1)
+        resume.rest(job, MACHINE, 1000, resume.Start(1))
