@@ -25,8 +25,7 @@ CAUTION = 1.25
 LENT = 16
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
 time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
-OVERLAP = 10
-"""I/O error of a question that met another answer."""
+_MOST_COLLISIONS = 20
 _LONGEST_NAP = 0.25
 """s between two questions."""
 _NAP = 0.02
@@ -99,8 +98,8 @@ class Asked:
         """Instructions that had left the buffer then."""
         self._asked: int | None = None
         """Instructions written before the open question."""
-        self._places = 0
-        """Positions heard before it."""
+        self._places = self._collisions = 0
+        """Positions heard before it; questions in a row that met one."""
         self._progress = self._changed = self._asked_when = session.clock.now()
         """When an instruction was last seen to leave the buffer; when an answer last differed."""
 
@@ -158,12 +157,11 @@ class Asked:
             self._places = self._session.places
 
     def _wait(self) -> None:
-        on_line = self._session.buffer * self._session.byte_time
-        soon = self._asked_when + on_line + 4 * self._session.round_trip
-        answer = self._session.answer(soon)
+        answer = self._session.answer(self._soon(self._asked_when))
         if answer is None and self._session.places > self._places:
             self._collided()
             return
+        on_line = self._session.buffer * self._session.byte_time
         answer = answer or self._session.answer(self._asked_when + on_line + PATIENCE)
         if answer is None:
             raise NoAnswer(
@@ -173,14 +171,25 @@ class Asked:
         self._hear(answer)
         self._check_progress()
 
+    def _soon(self, asked: float) -> float:
+        """Return by when an answer is there that nothing has met."""
+        session = self._session
+        return asked + session.buffer * session.byte_time + 4 * session.round_trip
+
     def _collided(self) -> None:
         """Ask again: the question met the answer to OA, and was dropped for it."""
-        if self._session.io_error() not in {0, OVERLAP}:
+        self._asked = None
+        self._collisions += 1
+        if self._collisions > _MOST_COLLISIONS:
+            raise NoAnswer(
+                "The plotter tells its position, but not its free bytes: it does not know ESC.B. "
+                'Use a profile with the handshake "xon-xoff" or "none".'
+            )
+        if self._session.io_error(self._soon(self._session.clock.now())):
             raise NoAnswer(
                 "The machine reports that bytes were lost or garbled on the line. Check the cable "
                 "and the baud rate."
             )
-        self._asked = None
 
     def _hear(self, answer: str | None) -> None:
         if answer is None or self._asked is None:
@@ -192,6 +201,7 @@ class Asked:
             )
         if self._free_at != self._asked or str(self._free) != answer:
             self._changed = self._session.clock.now()
+        self._collisions = 0
         self._free, self._free_at = min(int(answer), self._session.buffer), self._asked
         self._asked = None
         gone = self._sums.bytes[self._free_at] - (self._session.buffer - self._free)

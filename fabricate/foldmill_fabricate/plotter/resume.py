@@ -14,6 +14,8 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.errors import ProgramRefused
 from foldmill_fabricate.plotter.program import PART, XY, Job, numbers, ready, rechunk
 
+STEP = 1.0
+"""A machine that rounds may report a neighbouring step."""
 _FRESH = (b"IN", b"DF")
 """Begin a job anew; not said again."""
 _WAYS = (b"PA", b"PU", b"PD")
@@ -54,6 +56,37 @@ def vertices(job: Job, stroke: int) -> list[XY]:
     Raises ProgramRefused for relative moves.
     """
     return _traced(job, stroke).path
+
+
+def lead_in(job: Job, stroke: int) -> tuple[int, ...]:
+    """Return the stroke that turned the blade for this one: the first after its tool was chosen."""
+    first, chosen = 0, True
+    for part in job.parts:
+        for one, two, _ in PART.findall(part.data):
+            name = (one + two).upper()
+            chosen = chosen or name == b"SP"
+            if chosen and name == b"PD":
+                first, chosen = part.stroke, False
+        if part.stroke >= stroke:
+            break
+    return (first,) if first < stroke else ()
+
+
+def locate(job: Job, acked: int, sent: int, at: XY) -> Start | None:
+    """Return from where a tool that stands at ``at`` (steps) goes on.
+
+    acked, sent : strokes that are cut, and that may be. None where it stands at no vertex of what
+    is in doubt, or could stand at several: a stroke that is repeated comes by again.
+    """
+    found = {
+        Start(k + 1) if v == len(path) - 1 else Start(k, v)
+        for k in range(max(0, acked - 1), sent)
+        for path in [vertices(job, k)]
+        for v, spot in enumerate(path)
+        if max(abs(spot[0] - at[0]), abs(spot[1] - at[1])) <= STEP
+    }
+    found = {start for start in found if start.stroke >= acked}
+    return found.pop() if len(found) == 1 else None
 
 
 def rest(job: Job, machine: Machine, limit: int, start: Start) -> Job:

@@ -138,6 +138,20 @@ def send(
         raise
 
 
+def whereabouts(port: Any, machine: Machine, clock: Clock | None = None) -> XY | None:
+    """Have a machine drop what it holds, and say where its tool stands, steps.
+
+    None where it cannot drop a half-sent instruction, or does not answer: then nothing is sent.
+    """
+    if machine.serial.handshake != "esc-b":
+        return None
+    session = Session(port, machine, clock or clock_of(port))
+    session.open()
+    session.write(b"OA;")
+    answer = session.place(session.clock.now() + PATIENCE)
+    return position(answer) if answer else None
+
+
 class _Delivery:
     """One program on its way."""
 

@@ -17,6 +17,8 @@ from foldmill_fabricate.plotter.errors import NoAnswer
 
 _FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
+_MET = 10
+"""I/O error of a question that met another answer: it was dropped, and nothing else."""
 _PAUSED = 16 | 32
 """Bits of the extended status: paused by a key, or a lever up."""
 
@@ -103,9 +105,11 @@ class Session:
         text = self.answer(self.clock.now() + patience)
         return int(text) if text is not None and text.isdigit() else None
 
-    def io_error(self) -> int | None:
-        """Return the machine's I/O error, 0 for none; None for silence."""
-        return self.control(_ERROR, PATIENCE)
+    def io_error(self, deadline: float | None = None) -> int:
+        """Return the machine's I/O error; 0 for none, for silence, and for questions that met."""
+        patience = PATIENCE if deadline is None else deadline - self.clock.now()
+        found = self.control(_ERROR, patience) or 0
+        return 0 if found == _MET else found
 
     def paused(self) -> bool:
         """Whether somebody has paused the machine at its own keys."""

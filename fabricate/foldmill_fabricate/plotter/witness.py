@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.program import XY, Instruction, Job
+from foldmill_fabricate.plotter.resume import STEP
 from foldmill_fabricate.plotter.session import Session
 
 QUESTION = b"OA;"
@@ -20,8 +21,6 @@ EVERY = 0.5
 """s of motion between two questions, at least."""
 LONG = 1.5
 """s of motion that go unconfirmed before a stroke that takes them beyond that."""
-STEP = 1.0
-"""A machine that rounds may report a neighbouring step."""
 
 
 def watched(job: Job) -> Job:

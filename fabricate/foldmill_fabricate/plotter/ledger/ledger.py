@@ -22,7 +22,7 @@ from foldmill_fabricate.plotter.ledger.reading import (
 )
 from foldmill_fabricate.plotter.ledger.run import Run
 from foldmill_fabricate.plotter.ledger.tables import AUDIT, PROGRAMS, RUNS, SHEETS, connect
-from foldmill_fabricate.plotter.ledger.values import Program, Record, SheetRecord, State
+from foldmill_fabricate.plotter.ledger.values import Program, Record, SheetRecord, State, Word
 from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
 
 _LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
@@ -110,9 +110,8 @@ class Ledger:
     def claim(self, sheet: str, number: int, device: str) -> Run:
         """Take a ready program's token.
 
-        A program that another run left without an end becomes interrupted instead: whoever calls
-        holds the device's lock, so that run is dead. Raises LedgerRefused, with the sentence, where
-        the program is not ready.
+        Whoever calls holds the device's lock. Raises LedgerRefused, with the sentence, where the
+        program is not ready; one that another run left without an end is interrupted from then on.
         """
         with self._engine.begin() as at:
             row = program_row(at, sheet, number)
@@ -122,12 +121,21 @@ class Ledger:
                 place = {"sheet": sheet, "number": number, "token": token, "vertex": row.vertex}
                 at.execute(insert(RUNS).values(device=device, **place, **begun))
                 note(at, self._now(), sheet, number, f"begun at stroke {row.first + 1} on {device}")
-                return Run(self, sheet, number, token, row.first, row.vertex)
+                return Run(self, sheet, number, token, row.first, row.strokes)
+        raise LedgerRefused(not_ready(self.recover(sheet, number)))
+
+    def recover(self, sheet: str, number: int) -> Record:
+        """Return a program; a run of it that nobody ended is interrupted from now on.
+
+        Whoever calls holds the device's lock, so that such a run is dead.
+        """
+        with self._engine.begin() as at:
+            row = program_row(at, sheet, number)
             if State(row.state) is State.RUNNING:
                 why = "The run before was never ended: it crashed, or was killed."
                 set_state(at, row, State.INTERRUPTED, note=why)
                 note(at, self._now(), sheet, number, f"interrupted: {why}")
-        raise LedgerRefused(not_ready(self.record(sheet, number)))
+        return self.record(sheet, number)
 
     def write(self, run: Run, sent: int, acked: int) -> None:
         """Write down how far a run is; raises Fenced where it lost its token."""
@@ -168,6 +176,13 @@ class Ledger:
                 )
             note(at, self._now(), sheet, number, str(said), who)
         return self.record(sheet, number)
+
+    def give_up(self, sheet: str, who: str = "") -> SheetRecord:
+        """Give up what is left of a sheet, on a person's word."""
+        with self._engine.begin() as at:
+            words.give_up(at, sheet)
+            note(at, self._now(), sheet, None, Word.SPOILED.value, who)
+        return self.sheet(sheet)
 
 
 def _free_name(at: Connection, job: str) -> str:

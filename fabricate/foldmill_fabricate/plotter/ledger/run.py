@@ -14,11 +14,10 @@ class Run:
     """Holds a program's token. Every call raises Fenced once somebody else holds it."""
 
     def __init__(
-        self, ledger: Ledger, sheet: str, number: int, token: int, first: int, vertex: int
+        self, ledger: Ledger, sheet: str, number: int, token: int, first: int, strokes: int
     ) -> None:
-        self._ledger = ledger
-        self.sheet, self.number, self.token = sheet, number, token
-        self.first, self.vertex = first, vertex
+        self._ledger, self._strokes = ledger, strokes
+        self.sheet, self.number, self.token, self.first = sheet, number, token, first
         self.sent = self.acked = first
 
     def advance(self, sent: int, acked: int) -> None:
@@ -27,7 +26,7 @@ class Run:
         acked : strokes that the machine has confirmed. Neither ever falls. Nothing is written
         where nothing has changed.
         """
-        sent, acked = max(sent, self.sent), max(acked, self.acked)
+        sent, acked = max(min(sent, self._strokes), self.sent), max(acked, self.acked)
         if (sent, acked) != (self.sent, self.acked):
             self._ledger.write(self, sent, acked)
             self.sent, self.acked = sent, acked

@@ -64,7 +64,7 @@ def apply(at: Connection, row: Any, record: Record, said: Said) -> bool:
     if State(row.state) is not record.state or not set_state(at, row, _TO[said.word], **way):
         return False
     if said.word is Word.SPOILED:
-        _give_up(at, record.sheet)
+        give_up(at, record.sheet)
     else:
         cut_to = said.stroke if said.word is Word.GO_ON else record.program.strokes
         _settle(at, record, cut_to)
@@ -77,6 +77,7 @@ def _settle(at: Connection, record: Record, cut_to: int) -> None:
     at.execute(update(RUNS).where(here, RUNS.c.cut_to.is_(None)).values(cut_to=cut_to))
 
 
-def _give_up(at: Connection, sheet: str) -> None:
+def give_up(at: Connection, sheet: str) -> None:
+    """Spoil every program of a sheet that is not running."""
     for row in at.execute(select(PROGRAMS).where(PROGRAMS.c.sheet == sheet)).all():
         set_state(at, row, State.SPOILED)
