@@ -21,6 +21,11 @@ SCALE = 1e-3
 """Largest difference in scale that can be temperature; more is a wrong reading."""
 
 
+NOMINAL = Fit(angle=0.0, dx=0.0, dy=0.0)
+"""A sheet that lies where it ought to: marks tell the whole of how it lies, stored offset included.
+"""
+
+
 @dataclass(frozen=True)
 class MarkFit:
     """A fit, and how well it explains the marks."""
@@ -68,7 +73,7 @@ def _matched(plan: Plan, measured: Floats) -> tuple[Floats, Floats]:
         raise CannotSend("This job has no registration holes, so that marks mean nothing to it.")
     if len(measured) < 2:
         raise CannotSend("Measure at least two registration holes; one alone shows no angle.")
-    holes = seen_by_machine(plan, Face.REVERSE, [(hole.x, hole.y) for hole in plan.holes])
+    holes = seen_by_machine(plan, Face.REVERSE, [(hole.x, hole.y) for hole in plan.holes], NOMINAL)
     away = np.hypot(*(measured[:, None] - holes[None]).transpose(2, 0, 1))
     nearest = away.argmin(axis=1)
     for mark, gap in zip(measured, away.min(axis=1), strict=True):

@@ -178,6 +178,32 @@ class Marks(Preset):
     """Width of their lines."""
 
 
+class TwoSides(Preset):
+    """Where a flipped sheet comes to lie on this machine, less where it ought to: of a coupon.
+
+    Of the reverse as the machine sees it, about the blank's lower left corner there: what ought to
+    lie at p lies at turn(p, angle) + (dx, dy). Programs of the reverse follow the sheet so, after
+    the mirror and before scale and skew. Marks that were measured on the sheet itself say the whole
+    of it and stand in its place.
+    """
+
+    dx: Mm = Field(0.0, ge=-10, le=10)
+    """How far the sheet lies to the right."""
+    dy: Mm = Field(0.0, ge=-10, le=10)
+    """How far it lies up."""
+    angle: Deg = Field(0.0, ge=-2, le=2)
+    """By how much it is turned counter-clockwise."""
+    flip: Literal["left-right", "end-over-end"] = "left-right"
+    """How the sheet was turned when this was measured; it says nothing of the other way."""
+    measured: str = Field("", json_schema_extra=INFORMATION)
+    """When, by whom and with what it was measured; empty where it never was."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is anything to make up for."""
+        return bool(self.dx or self.dy or self.angle)
+
+
 class Files(Preset):
     """What the machine's own software makes of a drawing."""
 
@@ -215,6 +241,7 @@ class Machine(Sourced):
     motion: Motion
     serial: Serial
     marks: Marks = Field(default_factory=lambda: Marks.model_validate({}))
+    two_sides: TwoSides = Field(default_factory=lambda: TwoSides.model_validate({}))
     files: Files = Field(default_factory=lambda: Files.model_validate({}))
     mark_tolerance: Mm = Field(0.3, gt=0)
     """Largest residual of measured registration marks that is still believed."""

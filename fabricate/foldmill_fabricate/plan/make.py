@@ -28,6 +28,7 @@ from foldmill_fabricate.plan import (
     scores,
     setups,
     sides,
+    two_sides,
 )
 from foldmill_fabricate.plan import relief as relief_holes
 from foldmill_fabricate.plan.figures import measure
@@ -96,7 +97,9 @@ def make(
         figures=measure(passes, machine, sheet, turn),
     )
     judged = rules.judge(pattern, spots, by_face, found.stops, found.relieved, draft)
-    return draft.model_copy(update={"findings": (*_folds(fold), *marks.findings, *judged)})
+    return draft.model_copy(
+        update={"findings": (*_folds(fold), *marks.findings, *two_sides.findings(draft), *judged)}
+    )
 
 
 @dataclass(frozen=True)
