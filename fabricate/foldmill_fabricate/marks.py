@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.passes import Face, Fit, Plan
-from foldmill_fabricate.sheet import seen_by_machine, turned
+from foldmill_fabricate.sheet import NOMINAL, seen_by_machine, turned
 
 Floats = NDArray[np.float64]
 
@@ -19,11 +19,6 @@ CATCH = 12.0
 laid askew, less than half of what a sheet turned the wrong way is off."""
 SCALE = 1e-3
 """Largest difference in scale that can be temperature; more is a wrong reading."""
-
-
-NOMINAL = Fit(angle=0.0, dx=0.0, dy=0.0)
-"""A sheet that lies where it ought to: marks tell the whole of how it lies, stored offset included.
-"""
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,10 @@ from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
 Floats = NDArray[np.float64]
 
 
+NOMINAL = Fit(angle=0.0, dx=0.0, dy=0.0)
+"""A flipped sheet that lies where it ought to, whatever its machine has stored."""
+
+
 def turned(points: ArrayLike, degrees: float) -> Floats:
     """Turn points (n, 2) about the origin, counter-clockwise."""
     angle = np.radians(degrees)
@@ -41,10 +45,11 @@ def on_carrier(points: ArrayLike, sheet: Sheet) -> Floats:
 def laid_off(points: ArrayLike, plan: Plan) -> Floats:
     """Move points (n, 2) of the flipped sheet, mm, to where this machine is known to find them.
 
-    Nothing moves where the offset was measured with the other flip.
+    Nothing moves where the offset was measured with the other flip, nor where the machine's own
+    sensor finds the sheet.
     """
     off = plan.machine.two_sides
-    if off.flip != plan.flip.kind:
+    if off.flip != plan.flip.kind or plan.registration.kind == "l-marks":
         return np.asarray(points, float)
     moved: Floats = turned(points, off.angle) + np.array([off.dx, off.dy])
     return moved

@@ -16,13 +16,13 @@ from foldmill import Fold
 from foldmill_fabricate import folder
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine, TwoSides
-from foldmill_fabricate.marks import NOMINAL, fit_marks
+from foldmill_fabricate.marks import fit_marks
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
-from foldmill_fabricate.sheet import seen_by_machine
+from foldmill_fabricate.sheet import NOMINAL, seen_by_machine
 from foldmill_fabricate.verify import verify
 from foldmill_fabricate.verify.virtual_sheet import on_sheet, to_carrier
 

@@ -50,6 +50,16 @@ class ReliefChoice(StrEnum):
     ALL = "all"
 
 
+class RegistrationChoice(StrEnum):
+    """What keeps the reverse in register with the front."""
+
+    HOLES = "holes"
+    L_MARKS = "l-marks"
+    EDGE = "edge"
+    PINS = "pins"
+    NONE = "none"
+
+
 class ProcessChoice(StrEnum):
     """How a line is made."""
 
@@ -102,6 +112,14 @@ def plan(
     relief: Annotated[
         ReliefChoice, typer.Option(help="Which vertices get a hole in which grooves end.")
     ] = ReliefChoice.NONE,
+    registration: Annotated[
+        RegistrationChoice,
+        typer.Option(help="What keeps the faces in register; the machine must be able to."),
+    ] = RegistrationChoice.HOLES,
+    temperature: Annotated[
+        str | None,
+        typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24."),
+    ] = None,
     to: Annotated[
         str | None,
         typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
@@ -126,6 +144,8 @@ def plan(
         score=None if score is None else score.value,
         cut=None if outline is None else outline.value,
         relief=relief.value,
+        register=registration.value,
+        temperatures=None if temperature is None else temperatures(temperature),
     )
     written = folder.write(fold, made, output, formats)
     programs = (
@@ -190,6 +210,20 @@ def size(text: str, option: str) -> tuple[float, float]:
         ) from None
     if not (0 < read[0] < 1e5 and 0 < read[1] < 1e5):
         raise FoldmillError(f"{option}: both sides must be positive and below 100 m, not {text!r}.")
+    return read
+
+
+def temperatures(text: str) -> tuple[float, float]:
+    """Read FRONT,REVERSE in °C."""
+    front, _, reverse = text.partition(",")
+    try:
+        read = float(front), float(reverse)
+    except ValueError:
+        raise FoldmillError(
+            f"--temperature: write FRONT,REVERSE in °C, as 21,24; not {text!r}."
+        ) from None
+    if not all(-50 <= each <= 150 for each in read):
+        raise FoldmillError(f"--temperature: a sheet has -50 to 150 °C, not {text!r}.")
     return read
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.presets import INFORMATION, Preset, Sourced
@@ -167,15 +167,37 @@ class Marks(Preset):
     """How the machine finds a sheet again."""
 
     kinds: tuple[Literal["holes", "edge", "pins", "l-marks-3", "l-marks-4", "two-target"], ...] = (
-        Field(("holes", "edge"), json_schema_extra=INFORMATION)
+        "holes",
+        "edge",
     )
     """What it, or its operator, can find."""
-    square: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
-    """Side of the filled square of optical marks."""
-    arm: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    square: Mm = Field(0.0, ge=0)
+    """Side of the filled square of optical marks; 0 where all of them are L-shaped."""
+    arm: Mm = Field(0.0, ge=0)
     """Length of the arms of optical marks."""
-    line_width: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    line_width: Mm = Field(0.0, ge=0)
     """Width of their lines."""
+    optical_error: Mm = Field(0.2, ge=0)
+    """How far off its sensor finds marks."""
+    pin_diameter: Mm = Field(5.0, gt=0)
+    """Of the pins on its carrier."""
+    pin_spacing: Mm = Field(0.0, ge=0)
+    """Distance of the two pins, middle to middle; 0 where it has none."""
+    pin_error: Mm = Field(0.3, ge=0)
+    """How far off a sheet lies on pins."""
+    edge_error: Mm = Field(1.0, ge=0)
+    """How far off a sheet lies against stops."""
+
+    @model_validator(mode="after")
+    def _measured(self) -> Self:
+        """Refuse kinds whose sizes are not given."""
+        if {"l-marks-3", "l-marks-4"} & {*self.kinds} and not (self.arm and self.line_width):
+            raise ValueError("kinds names L marks, which need arm and line_width")
+        if "l-marks-3" in self.kinds and not self.square:
+            raise ValueError("kinds names l-marks-3, of which one is a square: square is missing")
+        if "pins" in self.kinds and not self.pin_spacing:
+            raise ValueError("kinds names pins, which need pin_spacing")
+        return self
 
 
 class TwoSides(Preset):
@@ -184,7 +206,7 @@ class TwoSides(Preset):
     Of the reverse as the machine sees it, about the blank's lower left corner there: what ought to
     lie at p lies at turn(p, angle) + (dx, dy). Programs of the reverse follow the sheet so, after
     the mirror and before scale and skew. Marks that were measured on the sheet itself say the whole
-    of it and stand in its place.
+    of it and stand in its place; so do optical marks, which the machine finds itself.
     """
 
     dx: Mm = Field(0.0, ge=-10, le=10)
@@ -245,7 +267,7 @@ class Machine(Sourced):
     files: Files = Field(default_factory=lambda: Files.model_validate({}))
     mark_tolerance: Mm = Field(0.3, gt=0)
     """Largest residual of measured registration marks that is still believed."""
-    repeatability: Mm = Field(0.15, ge=0, json_schema_extra=INFORMATION)
+    repeatability: Mm = Field(0.15, ge=0)
     """How far a line lands from where it landed before."""
     provenance: str
     """Where the values come from that name no source of their own."""

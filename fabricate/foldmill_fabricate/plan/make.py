@@ -18,7 +18,7 @@ from foldmill.slits import sewn
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Kind, Material, Perforation
-from foldmill_fabricate.passes import Face, Flip, Hole, Plan, Sheet, Tie
+from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet, Tie
 from foldmill_fabricate.plan import (
     lead_ins,
     outline,
@@ -54,13 +54,16 @@ def make(
     flip: FlipKind = "left-right",
     unassigned: sides.Unassigned | None = None,
     relief: relief_holes.Relief = "none",
+    register: RegistrationKind = "holes",
+    temperatures: tuple[float, float] | None = None,
 ) -> Plan:
     """Plan the sheet of a fold.
 
     score, cut : the processes to use, by default the first of the material's that the machine can
     do; blank : (width, height) mm, by default the material's stock; carrier : (width, height) mm,
     by default the machine's mat; flip : how the operator turns the sheet; unassigned : where U
-    creases are scored; relief : which vertices get a hole. The same input gives the same plan.
+    creases are scored; relief : which vertices get a hole; register : what keeps the faces
+    in register; temperatures : of the sheet at both passes, °C. The same input gives the same plan.
     Raises CannotPlan or DoesNotFit with a sentence.
     """
     if not len(fold.pattern.vertices):
@@ -76,7 +79,7 @@ def make(
     spots = placed(pattern.vertices, placement)
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
-    marks = _register(pattern, spots, sheet, turn, material, by_face)
+    marks = _register(register, pattern, spots, sheet, turn, material, machine, by_face)
     found = _vertices(pattern, spots, by_face, material, relief)
     lines, ties = _lines(pattern, spots, by_face, found, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
@@ -91,6 +94,8 @@ def make(
         flip=turn,
         unassigned=unassigned,
         holes=marks.holes,
+        registration=marks.made,
+        temperatures=temperatures,
         ties=ties,
         reliefs=found.reliefs(spots),
         passes=passes,
@@ -164,17 +169,19 @@ def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
 
 
 def _register(
+    kind: RegistrationKind,
     pattern: CreasePattern,
     spots: Floats,
     sheet: Sheet,
     turn: Flip,
     material: Material,
+    machine: Machine,
     by_face: ByFace,
 ) -> Registration:
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    return registration.register(_rim(pattern, spots), sheet, turn, material)
+    return registration.register(kind, [_rim(pattern, spots)], sheet, turn, material, machine)
 
 
 def _rim(pattern: CreasePattern, spots: Floats) -> Floats:

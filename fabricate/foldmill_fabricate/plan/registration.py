@@ -1,20 +1,34 @@
-"""How the flip keeps register: four holes in the waste, and a mark that shows the sheet was turned.
+"""How the flip keeps register: holes, pins, optical marks or edges, and a mark that shows the turn.
 
-Two pairs of holes are symmetric about the flip axis, so that a turned sheet shows holes where holes
-were. Their spacings differ and they are not symmetric about the other centre line, so that a sheet
-turned the wrong way shows it.
+Of holes, two pairs are symmetric about the flip axis, so that a turned sheet shows holes where
+holes were. Their spacings differ and they are not symmetric about the other centre line, so that a
+sheet turned the wrong way shows it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Holes, Material
-from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
+from foldmill_fabricate.passes import (
+    Flip,
+    Hole,
+    Mark,
+    Register,
+    RegistrationKind,
+    Sheet,
+    Stroke,
+)
+from foldmill_fabricate.plan import optical, pins
+from foldmill_fabricate.plan.stops import stops
 from foldmill_fabricate.sheet import flipped
 from foldmill_fabricate.toolpath.knife import facets, is_facetted
 
@@ -31,6 +45,9 @@ WITNESS_CLEARANCE = 3.0
 """mm around the witness mark to the part, the edge and the holes."""
 
 
+UNHELD = Register(kind="none")
+
+
 @dataclass(frozen=True)
 class Registration:
     """Holes and witness mark, in sheet coordinates; empty where nothing fits, with the reason."""
@@ -38,28 +55,113 @@ class Registration:
     holes: tuple[Hole, ...] = ()
     witness: tuple[Stroke, ...] = ()
     findings: tuple[Finding, ...] = ()
+    made: Register = UNHELD
+    """What the plan says of it."""
 
 
-def register(part: Floats, sheet: Sheet, flip: Flip, material: Material) -> Registration:
-    """Find holes and witness mark in the waste around a part, its outline (n, 2) on the sheet."""
-    holes = material.holes
+def register(
+    kind: RegistrationKind,
+    rims: Sequence[Floats],
+    sheet: Sheet,
+    flip: Flip,
+    material: Material,
+    machine: Machine,
+) -> Registration:
+    """Find what keeps the faces in register in the waste around parts, outlines (n, 2), mm.
+
+    Where it does not fit, edge stops take its place and a finding says by how much. Raises
+    CannotPlan for a kind that the machine does not offer.
+    """
+    _refuse(kind, machine)
+    if kind == "none":
+        return Registration(findings=(_unheld(),))
+    part = parts(rims)
+    found = _found(kind, part, sheet, flip, material, machine)
+    if found.made.kind == "edge":
+        found = replace(found, made=Register(kind="edge", stops=stops(sheet, flip)))
+    witness, more = _witness(_with(part, found.made.marks), sheet, found.holes)
+    return replace(found, witness=witness, findings=(*found.findings, *more))
+
+
+def offered(machine: Machine) -> list[str]:
+    """Return the kinds of registration that a machine, or its operator, can do."""
+    names = [each.removesuffix("-3").removesuffix("-4") for each in machine.marks.kinds]
+    return [*dict.fromkeys(name for name in names if name != "two-target"), "none"]
+
+
+def _refuse(kind: RegistrationKind, machine: Machine) -> None:
+    if kind not in offered(machine):
+        raise CannotPlan(
+            f"{machine.slug} cannot register a flipped sheet by {kind}; it can by "
+            f"{', '.join(offered(machine))}."
+        )
+
+
+def _found(
+    kind: RegistrationKind,
+    part: Any,
+    sheet: Sheet,
+    flip: Flip,
+    material: Material,
+    machine: Machine,
+) -> Registration:
+    """Return what fits, without the witness mark; kind edge where nothing does."""
+    edge = Register(kind="edge")
+    if kind == "edge":
+        return Registration(made=edge)
     if not material.cut.goes_through:
-        return Registration(findings=(_not_cut(material),))
+        return Registration(findings=(_not_cut(material),), made=edge)
+    if kind == "l-marks":
+        marks, findings = optical.find(part, sheet, flip, material, machine.marks)
+        made = Register(kind="l-marks", marks=marks) if marks else edge
+        return Registration(findings=findings, made=made)
+    if kind == "pins":
+        holes, findings = pins.find(part, sheet, flip, material.holes, machine.marks)
+        spots = pins.on_machine(holes, sheet, flip) if holes else ()
+        made = Register(kind="pins", pins=spots) if holes else edge
+        return Registration(holes, findings=findings, made=made)
+    found = _holes(part, sheet, flip, material.holes)
+    if not found:
+        return Registration(findings=(_no_room(part, sheet, material.holes),), made=edge)
+    return Registration(found, made=Register(kind="holes"))
+
+
+def _holes(part: Any, sheet: Sheet, flip: Flip, holes: Holes) -> tuple[Hole, ...]:
     radius = holes.diameter / 2
     room = (holes.edge_clearance + radius, holes.part_clearance + radius)
     spots = _grid(sheet)
     spots = spots[_is_free(spots, part, sheet, *room)]
     spots = spots[_is_free(flipped(spots, flip), part, sheet, *room)]
-    pairs = _two_pairs(spots, sheet, flip)
-    if pairs is None:
-        return Registration(findings=(_no_room(part, sheet, holes),))
-    found = tuple(
+    return tuple(
         Hole(x=float(x), y=float(y), diameter=holes.diameter)
-        for spot in pairs
+        for spot in _two_pairs(spots, sheet, flip) or ()
         for x, y in np.vstack([spot, flipped([spot], flip)])
     )
-    witness, findings = _witness(part, sheet, found)
-    return Registration(found, witness, findings)
+
+
+def _with(part: Any, marks: tuple[Mark, ...]) -> Any:
+    """Return the area that parts and optical marks take."""
+    import shapely
+
+    return shapely.union_all([part, *map(optical.box, marks)]) if marks else part
+
+
+def _unheld() -> Finding:
+    return Finding(
+        "no-registration",
+        Severity.WARNING,
+        "waste",
+        "Nothing keeps the reverse in register with the front, as was asked for.",
+        "Plan without --registration none where the faces must match.",
+    )
+
+
+def parts(rims: Sequence[Floats]) -> Any:
+    """Return the area of all parts, their outlines (n, 2) on the sheet."""
+    import shapely
+
+    shapes = [shapely.Polygon(rim) for rim in rims]
+    return shapes[0] if len(shapes) == 1 else shapely.union_all(shapes)
 
 
 def _grid(sheet: Sheet) -> Floats:
@@ -68,13 +170,13 @@ def _grid(sheet: Sheet) -> Floats:
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
 
 
-def _is_free(spots: Floats, part: Floats, sheet: Sheet, edge: float, clearance: float) -> Flags:
-    """Tell which spots (n, 2) are that far from the blank's edge and from the part."""
+def _is_free(spots: Floats, part: Any, sheet: Sheet, edge: float, clearance: float) -> Flags:
+    """Tell which spots (n, 2) are that far from the blank's edge and from the parts."""
     import shapely
 
     size = np.array([sheet.width, sheet.height])
     inside = np.asarray(((spots >= edge) & (spots <= size - edge)).all(axis=1), bool)
-    taken = shapely.Polygon(part).buffer(clearance)
+    taken = part.buffer(clearance)
     shapely.prepare(taken)
     outside: Flags = ~shapely.contains_xy(taken, *spots.T)
     return inside & outside
@@ -111,16 +213,16 @@ def _not_cut(material: Material) -> Finding:
         "no-registration-holes",
         Severity.WARNING,
         "waste",
-        f"Registration holes are cut through, and this outline is made by {material.cut.title}.",
-        "Lay both passes against the same edge stop, and write an F on the front by hand.",
+        f"Holes and marks are cut through, and this outline is made by {material.cut.title}.",
+        "Lay both passes against the same edge stops, as the job sheet says.",
     )
 
 
-def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
+def _no_room(part: Any, sheet: Sheet, holes: Holes) -> Finding:
     import shapely
 
     blank = shapely.box(0, 0, sheet.width, sheet.height)
-    free = blank.difference(shapely.Polygon(part))
+    free = blank.difference(part)
     widest = shapely.maximum_inscribed_circle(free).length if not free.is_empty else 0.0
     need = holes.diameter / 2 + max(holes.part_clearance, holes.edge_clearance)
     short = f"{need - widest:.1f} mm short" if widest < need else "not in two different pairs"
@@ -130,12 +232,12 @@ def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
         "waste",
         f"Four registration holes do not fit beside the part: the widest free circle has a radius "
         f"of {widest:.1f} mm and a hole needs {need:.1f} mm ({short}).",
-        "Lay both passes against the same edge stop, or take a larger blank.",
+        "Lay both passes against the same edge stops of the job sheet, or take a larger blank.",
     )
 
 
 def _witness(
-    part: Floats, sheet: Sheet, holes: tuple[Hole, ...]
+    part: Any, sheet: Sheet, holes: tuple[Hole, ...]
 ) -> tuple[tuple[Stroke, ...], tuple[Finding, ...]]:
     """Place the F near the upper left corner, where it is clear of everything."""
     size = WITNESS.reshape(-1, 2).max(axis=0)

@@ -11,7 +11,7 @@ from foldmill_fabricate.passes import Plan
 def findings(plan: Plan) -> Iterator[Finding]:
     """Yield what keeps a stored offset from being made up for, where one is stored."""
     stored = plan.machine.two_sides
-    if not stored.is_known or len(plan.passes) < 2:
+    if not stored.is_known or len(plan.passes) < 2 or plan.registration.kind == "l-marks":
         return
     told = f"Its two sides are {stored.dx:+.2f}, {stored.dy:+.2f} mm and {stored.angle:+.3f}° apart"
     if stored.flip != plan.flip.kind:

@@ -84,10 +84,11 @@ def to_carrier(sheet: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Flo
 def stored_offset(plan: Plan) -> tuple[Floats, Floats]:
     """Return how a flipped sheet lies on this machine: a matrix (2, 2) and a shift (2,), mm.
 
-    Nothing where it was measured of sheets that were turned the other way.
+    Nothing where it was measured of sheets that were turned the other way, and nothing where a
+    sensor finds the sheet by its marks.
     """
     stored = plan.machine.two_sides
-    if stored.flip == plan.flip.kind:
+    if stored.flip == plan.flip.kind and plan.registration.kind != "l-marks":
         return rotation(stored.angle), np.array([stored.dx, stored.dy])
     return np.eye(2), np.zeros(2)
 
