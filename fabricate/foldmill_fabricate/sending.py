@@ -13,7 +13,7 @@ from pathlib import Path
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.formats import hpgl
-from foldmill_fabricate.marks import MarkFit, fit_marks
+from foldmill_fabricate.marks import MarkFit, check_witness, fit_marks
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
 
@@ -33,11 +33,15 @@ class Job:
         return hashlib.sha256(self.plan.model_dump_json().encode()).hexdigest()
 
 
-def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
+def open_job(
+    path: Path,
+    marks: Sequence[tuple[float, float]] = (),
+    witness: tuple[float, float] | None = None,
+) -> Job:
     """Read a job folder and prove it; raises CannotSend where it must not be sent.
 
-    marks : where registration holes are seen after the flip, carrier coordinates in mm; the reverse
-    programs are written anew to fit, and proved again.
+    marks : where registration marks are seen after the flip, carrier coordinates in mm; the reverse
+    programs are written anew to fit, and proved again. witness : where the witness mark is seen.
     """
     files = read_folder(path)
     plan = files.plan
@@ -49,6 +53,8 @@ def open_job(path: Path, marks: Sequence[tuple[float, float]] = ()) -> Job:
     if unproved:
         raise CannotSend(f"{path} is not sent, for {unproved[0]} was not verified.")
     programs = {part.name: files.programs[part.name] for part in plan.programs}
+    if witness is not None:
+        check_witness(plan, witness)
     if not marks:
         return Job(plan, programs, proof, None)
     fit = fit_marks(plan, marks)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.making import Folder
+from foldmill_fabricate.cli.making import Folder, temperatures
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
@@ -60,6 +60,13 @@ def send(
     overlap: Annotated[
         float, typer.Option(min=0, max=20, help="mm of a through-cut that are cut again.")
     ] = 0.0,
+    witness: Annotated[
+        str,
+        typer.Option(help="Where the F is seen after the flip, on top or through: x,y in mm."),
+    ] = "",
+    temperature: Annotated[
+        str | None, typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24.")
+    ] = None,
     yes: Annotated[
         bool, typer.Option("--yes", help="Answer every prompt; on simulators only.")
     ] = False,
@@ -83,11 +90,12 @@ def send(
     if draw is not None and draw.exists() and not draw.is_dir():
         raise FoldmillError(f"--draw: {draw} is a file; name a folder for the pictures.")
     word = read_word(go_on, finished, overlap)
-    job = open_job(path, read_marks(marks))
+    job = open_job(path, read_marks(marks), _one(read_marks(witness)))
     _refuse_another_machine(port, job)
     faces = [Face(only.value)] if only else list(Face)
     if job.fit:
         typer.echo(f"The reverse is fitted to the marks: {job.fit}", err=as_json)
+    _tell_budget(job.plan, temperature, as_json)
     done: list[Sent] = []
     bar = ProgressLine(as_json)
     with stopping_on_signals():
@@ -116,6 +124,24 @@ def send(
             "The job is not finished; look at the sheet before anything is cut again.", err=True
         )
         raise typer.Exit(1)
+
+
+def _one(read: list[tuple[float, float]]) -> tuple[float, float] | None:
+    if len(read) > 1:
+        raise FoldmillError("--witness takes one place: the middle of the F.")
+    return read[0] if read else None
+
+
+def _tell_budget(plan: Plan, temperature: str | None, as_json: bool) -> None:
+    """Say how far the faces may be apart where the sheet's temperatures were given."""
+    from foldmill_fabricate.plan import budget
+
+    if temperature is None:
+        return
+    warm = plan.model_copy(update={"temperatures": temperatures(temperature)})
+    found = budget.reckon(warm)
+    if found is not None:
+        typer.echo(budget.sentence(found), err=as_json)
 
 
 @contextmanager

@@ -5,11 +5,16 @@ from __future__ import annotations
 from math import dist
 
 from foldmill_fabricate.jobsheet.words import Row
-from foldmill_fabricate.passes import Budget, Face, Mark, Plan
+from foldmill_fabricate.passes import Budget, Face, Mark, Plan, Stop
 from foldmill_fabricate.sheet import NOMINAL, flipped, seen_by_machine
 
 MARK_HEAD: Row = ("mark", "on the front", "after the flip", "after the flip, on the machine")
-STOP_HEAD: Row = ("", "edge of the blank", "on the machine", "")
+STOP_HEAD: Row = (
+    "stop",
+    "edge of the blank",
+    "front pass, on the machine",
+    "reverse pass, on the machine",
+)
 PIN_HEAD: Row = ("pin", "hole on the front", "after the flip, on the machine", "")
 
 
@@ -39,16 +44,22 @@ def table(plan: Plan) -> list[Row]:
     if made.kind == "l-marks":
         return [MARK_HEAD, *(_mark_row(plan, k, mark) for k, mark in enumerate(made.marks, 1))]
     if made.kind == "edge":
-        return [
-            STOP_HEAD,
-            *(
-                (stop.face.upper(), stop.edge, f"{stop.x:.1f}, {stop.y:.1f}", "")
-                for stop in made.stops
-            ),
-        ]
+        return [STOP_HEAD, *_stop_rows(made.stops)]
     if made.kind == "pins":
         return [PIN_HEAD, *_pin_rows(plan)]
     return []
+
+
+def _stop_rows(stops: tuple[Stop, ...]) -> list[Row]:
+    front, reverse = ([stop for stop in stops if stop.face is face] for face in Face)
+    return [
+        (
+            str(k),
+            one.edge if one.edge == two.edge else f"{one.edge}, then {two.edge}",
+            *(f"{stop.x:.1f}, {stop.y:.1f}" for stop in (one, two)),
+        )
+        for k, (one, two) in enumerate(zip(front, reverse, strict=True), start=1)
+    ]
 
 
 def _mark_row(plan: Plan, number: int, mark: Mark) -> Row:
@@ -107,15 +118,13 @@ def _about_marks(marks: tuple[Mark, ...]) -> str:
     )
 
 
-def budget_rows(budget: Budget) -> list[Row]:
-    """Return the error budget, the sums last."""
-    rows = [(f"± {share.error:.2f}", share.name, share.because) for share in budget.shares]
-    return [
-        *rows,
-        (f"± {budget.likely:.2f}", "likely", "root of the sum of squares"),
-        (
-            f"± {budget.worst:.2f}",
-            "at worst",
-            f"all at once; {budget.limit:g} mm is half the sheet",
-        ),
-    ]
+def budget_table(budget: Budget) -> tuple[Row, Row]:
+    """Return the error budget: names of the shares and of their sums, and mm."""
+    names = (*(share.name for share in budget.shares), "likely", "at worst", "half the sheet")
+    errors = (*(share.error for share in budget.shares), budget.likely, budget.worst)
+    return names, (*(f"± {error:.2f}" for error in errors), f"{budget.limit:g}")
+
+
+def budget_words(budget: Budget) -> str:
+    """Return how its shares come about."""
+    return "; ".join(f"{share.name}: {share.because}" for share in budget.shares[:2]) + "."

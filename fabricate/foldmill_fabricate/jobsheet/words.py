@@ -209,9 +209,10 @@ def temperature(plan: Plan) -> str:
         return "Temperature: ____ °C."
     span = max(plan.sheet.width, plan.sheet.height)
     drift = plan.material.expansion * 1e-6 * span
+    front, reverse = ("____", "____") if plan.temperatures is None else plan.temperatures
     return (
         f"Do both passes in one session: the sheet moves by {drift:.2f} mm/°C over {span:g} mm. "
-        f"Temperature: front ____ °C, reverse ____ °C."
+        f"Temperature: front {front} °C, reverse {reverse} °C."
     )
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
 HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
-BUDGET_STOPS = (0.0, 18.0, 58.0)
+BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
 CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
 
 
@@ -52,7 +52,7 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
     _add_register(page, plan)
     _add_budget(page, plan)
     page.y -= 2
-    page.line(words.temperature(plan), 8.5)
+    page.line(words.temperature(plan), 8)
     page.check_bar(12)
     return page
 
@@ -84,7 +84,7 @@ def _add_flip(page: Paper, plan: Plan) -> None:
         return
     page.heading("The flip")
     page.line(flip_drawing.instruction(plan))
-    size = 66.0
+    size = 52.0
     bottom = page.y - size + 2
     for k, after in enumerate((False, True)):
         flip_drawing.draw(page.window(LEFT + 12 + 84 * k, bottom, 74, size), plan, after=after)
@@ -108,9 +108,11 @@ def _add_register(page: Paper, plan: Plan) -> None:
 def _add_budget(page: Paper, plan: Plan) -> None:
     if plan.budget is None:
         return
-    page.heading("How far the reverse may land beside the front")
-    for row in register.budget_rows(plan.budget):
-        page.row(row, BUDGET_STOPS, 8)
+    page.heading("How far the reverse may land beside the front, mm")
+    names, errors = register.budget_table(plan.budget)
+    page.row(names, BUDGET_STOPS, 8, color="#606060")
+    page.row(errors, BUDGET_STOPS, 8)
+    page.line(register.budget_words(plan.budget), 7.5)
 
 
 def _folding_page(plan: Plan, fold: Fold) -> Paper:

@@ -177,6 +177,8 @@ class Marks(Preset):
     """Length of the arms of optical marks."""
     line_width: Mm = Field(0.0, ge=0)
     """Width of their lines."""
+    hole_error: Mm = Field(0.2, ge=0)
+    """How far off an operator measures the middle of a hole."""
     optical_error: Mm = Field(0.2, ge=0)
     """How far off its sensor finds marks."""
     pin_diameter: Mm = Field(5.0, gt=0)

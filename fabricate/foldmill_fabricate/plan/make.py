@@ -20,6 +20,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Kind, Material, Perforation
 from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet, Tie
 from foldmill_fabricate.plan import (
+    budget,
     lead_ins,
     outline,
     processes,
@@ -101,9 +102,18 @@ def make(
         passes=passes,
         figures=measure(passes, machine, sheet, turn),
     )
+    draft = draft.model_copy(update={"budget": budget.reckon(draft)})
     judged = rules.judge(pattern, spots, by_face, found.stops, found.relieved, draft)
     return draft.model_copy(
-        update={"findings": (*_folds(fold), *marks.findings, *two_sides.findings(draft), *judged)}
+        update={
+            "findings": (
+                *_folds(fold),
+                *marks.findings,
+                *two_sides.findings(draft),
+                *budget.findings(draft),
+                *judged,
+            )
+        }
     )
 
 
