@@ -40,6 +40,7 @@ goldens: $(READY)
 pictures: $(READY)
 	$(BIN)/python examples/gallery.py docs
 	$(BIN)/python examples/handbook.py docs
+	$(BIN)/python examples/registration.py docs
 
 tools:
 	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.passes import Face, Plan, Role
+from foldmill_fabricate.pictures import canvas
 from foldmill_fabricate.pictures.sheet import axis_line, strokes
 from foldmill_fabricate.sheet import flipped
 
@@ -121,3 +122,12 @@ def _draw_arrow(axes: Axes, plan: Plan, span: float) -> None:
     arrow = {"arrowstyle": "-|>", "linewidth": 1.6, "color": INK}
     arrow["connectionstyle"] = f"arc3,rad={bend}"
     axes.annotate("", xy=end, xytext=start, arrowprops=arrow, annotation_clip=False)
+
+
+def flip_picture(plan: Plan) -> bytes:
+    """Return a PNG of the sheet before and after the flip, with what keeps it in register."""
+    with canvas.own_style():
+        figure = canvas.figure(170, 84)
+        for k, after in enumerate((False, True)):
+            draw(canvas.flat_axes(figure, (0.02 + 0.49 * k, 0.02, 0.47, 0.96)), plan, after=after)
+        return canvas.png(figure)

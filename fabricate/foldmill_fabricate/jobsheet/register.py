@@ -23,11 +23,11 @@ def heading(plan: Plan) -> str:
     made = plan.registration
     if made.kind == "pins":
         return f"Pins of {plan.holes[0].diameter:g} mm, {_spacing(plan):g} mm apart; mm"
+    if made.kind == "holes" and plan.holes:
+        wide = f"{plan.holes[0].diameter:g} mm wide"
+        return f"Registration holes, {wide}; middles in mm from the lower left"
     return {
-        "holes": f"Registration holes, {plan.holes[0].diameter:g} mm wide; middles in mm from the "
-        f"lower left"
-        if plan.holes
-        else "",
+        "holes": "No registration holes: lay the sheet's edges against stops in both passes",
         "l-marks": "Registration marks for the machine's sensor; outer corners in mm",
         "edge": "Edge stops: push the blank against all three in each pass; mm",
         "none": "Nothing keeps the faces in register, as was asked for",

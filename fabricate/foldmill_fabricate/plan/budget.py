@@ -133,15 +133,13 @@ def sentence(budget: Budget) -> str:
 
 
 def findings(plan: Plan) -> Iterator[Finding]:
-    """Yield a warning where the likely error is above half the thickness; a note where the worst
-    is.
-    """
+    """Yield a warning where the likely error is above half the thickness."""
     budget = plan.budget
-    if budget is None or budget.worst <= budget.limit:
+    if budget is None or budget.likely <= budget.limit:
         return
     largest = max(budget.shares, key=lambda share: share.error)
-    severity = Severity.WARNING if budget.likely > budget.limit else Severity.INFO
-    yield Finding("register-error", severity, "reverse pass", sentence(budget), _remedy(largest))
+    told, remedy = sentence(budget), _remedy(largest)
+    yield Finding("register-error", Severity.WARNING, "reverse pass", told, remedy)
 
 
 def _remedy(largest: Share) -> str:
