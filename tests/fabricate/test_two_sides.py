@@ -14,14 +14,16 @@ from hypothesis import strategies as st
 
 from foldmill import Fold
 from foldmill_fabricate import folder
+from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine, TwoSides
 from foldmill_fabricate.marks import fit_marks
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.machine import Simulator
-from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.sheet import NOMINAL, seen_by_machine
 from foldmill_fabricate.verify import verify
 from foldmill_fabricate.verify.virtual_sheet import on_sheet, to_carrier
@@ -124,6 +126,24 @@ def test_an_offset_of_the_other_flip_is_not_made_up_for_and_planning_says_so() -
     assert verify(plan, fold.pattern, hpgl.write(plan, fold)).ok
     assert "two-sides" in {finding.code for finding in plan.findings}
     assert "two-sides" not in {finding.code for finding in made(**OFF).findings}
+
+
+def test_where_only_drawings_are_made_planning_says_what_to_shift_by_hand() -> None:
+    machine = with_offset(hand_made.machine("silhouette-like"), **OFF)
+    plan = make(hand_made.fold(), hand_made.material(), machine, blank=BLANK)
+    [told] = [str(each) for each in plan.findings if each.code == "two-sides"]
+    assert "+0.35, -0.20 mm and +0.050°" in told
+    assert "machine's own software" in told
+
+
+def test_a_sensor_that_finds_the_sheet_needs_no_stored_offset() -> None:
+    fold = hand_made.fold()
+    plain = hand_made.machine("graphtec-summa-like")
+    written = [
+        hpgl.write(make(fold, hand_made.material(), machine, blank=BLANK, register="l-marks"), fold)
+        for machine in (plain, with_offset(plain, **OFF))
+    ]
+    assert written[0] == written[1]
 
 
 @given(offsets)

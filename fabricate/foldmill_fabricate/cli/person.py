@@ -108,15 +108,33 @@ def instruction(gate: Gate, face: Face, setup: SetUp, plan: Plan) -> str:
         return (
             f"Load a {plan.sheet.width:g} × {plan.sheet.height:g} mm sheet of "
             f"{plan.material.title} on the mat, its lower left corner at "
-            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the {side} up."
+            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the {side} up.{_against(face, plan)}"
         )
     if gate is Gate.FLIP:
         side = "bottom" if plan.flip.kind == "left-right" else "left"
         return (
             f"Turn the sheet over {plan.flip.kind}: the {side} edge stays where it is. The F in "
-            f"the waste must now be on the underside."
+            f"the waste must now be on the underside.{_against(face, plan)}"
         )
     return (
         f"Set the tool for {setup.name}: exposure {setup.exposure:g} mm, force {setup.force:g} gf, "
         f"speed {setup.speed / 10:g} cm/s."
     )
+
+
+def _against(face: Face, plan: Plan) -> str:
+    """Return what to do about registration when the sheet is laid, after a blank; or nothing."""
+    made = plan.registration
+    if made.kind == "edge":
+        spots = ", ".join(
+            f"{stop.edge} ({stop.x:g}, {stop.y:g})" for stop in made.stops if stop.face is face
+        )
+        return f" Push its edges against the stops, mm on the mat: {spots}."
+    if face is Face.FRONT:
+        return ""
+    if made.kind == "pins":
+        spots = " and ".join(f"({x:g}, {y:g})" for x, y in made.pins)
+        return f" Press it down over the pins at {spots} mm."
+    if made.kind == "l-marks":
+        return " Put dark tape under the cut marks first, and let the machine search them now."
+    return ""

@@ -19,7 +19,7 @@ from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
     from foldmill_fabricate.delivering import Sent
-    from foldmill_fabricate.passes import ProgramFile
+    from foldmill_fabricate.passes import Plan, ProgramFile
     from foldmill_fabricate.plotter.sender import Progress
     from foldmill_fabricate.sending import Job
 

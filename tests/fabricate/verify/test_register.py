@@ -29,12 +29,20 @@ def three_marks() -> Machine:
     return machine.model_copy(update={"slug": "three-marks", "marks": marks})
 
 
+def led() -> Machine:
+    """A cutter whose programs make up for the blade's offset, and which has a sensor."""
+    machine = hand_made.machine("generic-hpgl-drag-knife")
+    marks = hand_made.machine("graphtec-summa-like").marks
+    return machine.model_copy(update={"slug": "led", "marks": marks})
+
+
 MACHINES: dict[str, Callable[[], Machine]] = {
     "holes": hand_made.machine,
     "edge": hand_made.machine,
     "none": hand_made.machine,
     "l-marks": lambda: hand_made.machine("graphtec-summa-like"),
     "three": three_marks,
+    "led": led,
     "pins": lambda: pinned(160.0),
 }
 
@@ -47,7 +55,7 @@ def pinned(spacing: float) -> Machine:
 
 @cache
 def made(what: str, flip: str = "left-right") -> Plan:
-    kind = "l-marks" if what == "three" else what
+    kind = "l-marks" if what in {"three", "led"} else what
     return make(
         hand_made.fold(),
         hand_made.material(),
@@ -70,7 +78,7 @@ def errors(plan: Plan) -> set[str]:
 @pytest.mark.parametrize("what", MACHINES)
 def test_a_plan_registered_in_this_way_passes(what: str, flip: str) -> None:
     plan = made(what, flip)
-    assert plan.registration.kind == ("l-marks" if what == "three" else what)
+    assert plan.registration.kind == ("l-marks" if what in {"three", "led"} else what)
     assert errors(plan) == set()
 
 
