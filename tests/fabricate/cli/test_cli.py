@@ -287,7 +287,7 @@ def test_a_port_that_is_not_there_is_told_before_a_sheet_is_loaded(
 def test_an_unconfirmed_program_ends_the_job(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
     foldmill("plan", "a.fold", "-o", "job")
-    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?silent_after=6500", "--yes")
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?fault=silence@6500", "--yes")
     assert told.code != 0
     assert "2-front-score" not in told.out
 
