@@ -166,6 +166,12 @@ class Device:
         """Note a byte that came at another rate than the machine's."""
         self.firmware.fault(FRAMING)
 
+    def fail(self, faults: Iterable[Fault], now: float) -> None:
+        """Let more go wrong, at once where its place has been passed."""
+        self.now = now
+        self.schedule.add(faults)
+        self._meet(now)
+
     def resume(self, now: float) -> None:
         """Go on after a pause at the machine."""
         self.paused = False

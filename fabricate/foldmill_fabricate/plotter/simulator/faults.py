@@ -1,7 +1,7 @@
 """Faults on demand: what goes wrong with the simulated machine, where, how much and how long.
 
 ``NAME@PLACE[xAMOUNT][:DURATION]``, several with commas between them, such as ``silence@5000``,
-``power@2.5strokes:30s`` or ``garbage@800x4,slow@12s x5`` without the space. The place is a number
+``power@2.5strokes:30s`` or ``garbage@800x4,slow@12sx5``. The place is a number
 of bytes received (``5000`` or ``5000bytes``), of strokes executed (``2strokes``; ``2.5strokes`` is
 half through the first line of the third) or a time of the simulator's clock (``12s``). Without a
 duration a fault lasts for ever. The same faults do the same to the same bytes.
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import inf
 
@@ -124,19 +124,17 @@ class Schedule:
     """Which faults are still to come, which are there, and which end when."""
 
     def __init__(self, faults: Iterable[Fault]) -> None:
-        self._waiting = [
-            Fault(
-                each.trouble,
-                each.at,
-                each.unit,
-                each.amount or _AMOUNTS.get(each.trouble, 0.0),
-                each.lasting,
-            )
-            for each in faults
-        ]
+        self._waiting: list[Fault] = []
+        self.add(faults)
         self._ends: list[tuple[float, Fault]] = []
         self.begun: list[tuple[float, Fault]] = []
         """When each fault began, s."""
+
+    def add(self, faults: Iterable[Fault]) -> None:
+        """Let more go wrong."""
+        self._waiting += [
+            replace(each, amount=each.amount or _AMOUNTS.get(each.trouble, 0.0)) for each in faults
+        ]
 
     @property
     def waiting(self) -> bool:
@@ -175,6 +173,4 @@ class Schedule:
             whole, share = divmod(fault.at, 1)
             if fault.unit is Unit.STROKES and share and strokes >= whole:
                 moment = begins + share * seconds
-                self._waiting[number] = Fault(
-                    fault.trouble, moment, Unit.SECONDS, fault.amount, fault.lasting
-                )
+                self._waiting[number] = replace(fault, at=moment, unit=Unit.SECONDS)

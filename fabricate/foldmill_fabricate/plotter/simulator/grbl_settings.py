@@ -26,8 +26,9 @@ class Settings:
 
     def __init__(self, machine: Machine) -> None:
         steps, motion = machine.axes.units_per_mm, machine.motion
+        beam = machine.tools.max_force is None  # only a laser presses on nothing
         self._values = {
-            10: 1.0, 20: 1.0, 22: 0.0, 32: float(machine.build == "laser"),
+            10: 1.0, 20: 1.0, 22: 0.0, 32: float(beam),
             100: steps, 101: steps, 110: motion.travel_speed * 60, 111: motion.travel_speed * 60,
             120: motion.acceleration, 121: motion.acceleration,
             130: machine.bed.width, 131: machine.bed.length,

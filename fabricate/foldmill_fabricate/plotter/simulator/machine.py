@@ -185,6 +185,13 @@ class Simulator:
             self.advance()
             self.device.resume(self._now)
 
+    def fail(self, faults: Iterable[Fault]) -> None:
+        """Let more go wrong, at once where its place has been passed."""
+        with self._lock:
+            self.advance()
+            self.device.fail(faults, self._now)
+            self._sense()
+
     def rest(self) -> None:
         """Wait until the machine has done all it has been given.
 
@@ -220,11 +227,19 @@ class Simulator:
         x, y = device.carriage.at
         drawn = ", ".join(f"{len(self.sheet.strokes[face])} on the {face}" for face in Face)
         return (
-            f"{self.machine.slug}: {'at rest' if device.idle else 'moving'} at {x},{y}; sheet "
+            f"{self.machine.slug}: {self.doing} at {x},{y}; sheet "
             f"{len(self.sheets)}, {self.sheet.up} up, strokes: {drawn}; {len(traffic.received)} "
             f"bytes received, fullest {traffic.fullest} of {device.size}, {traffic.overruns} lost, "
             f"{tally.errors} errors, {tally.second_in} IN inside a job"
         )
+
+    @property
+    def doing(self) -> str:
+        """What it does, in a word or two."""
+        why = self._unrest()
+        if why and why != "standing, tool down":
+            return why
+        return "at rest" if self.device.idle else "moving"
 
     def advance(self) -> None:
         """Let everything happen up to the clock's time."""
