@@ -50,6 +50,7 @@ def told(simulator: Simulator, data: bytes, seconds: float = 30.0) -> bytes:
         (b"\x1b.Q\x1b.E", b"11\r"),
         (b"\x1b.I8x\x1b.E", b"12\r"),
         (b"\x1b.I99999:\x1b.E", b"13\r"),
+        (b"\x1b.M10;;;321:\x1b.E", b"13\r"),
         (b"\x1b.M" + b"1;" * 12 + b"1:\x1b.E", b"14\r"),
     ],
 )

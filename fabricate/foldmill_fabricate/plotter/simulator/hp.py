@@ -6,7 +6,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from foldmill_fabricate.plotter.simulator.agreement import ACK, ENQ, Agreement
-from foldmill_fabricate.plotter.simulator.control import HP_7475, HP_7550, Command, ControlChannel
+from foldmill_fabricate.plotter.simulator.control import (
+    HP_7475,
+    HP_7550,
+    PARAMETER_RANGE,
+    Command,
+    ControlChannel,
+)
 from foldmill_fabricate.plotter.simulator.hpgl import Hpgl
 from foldmill_fabricate.plotter.simulator.parser import ENDS, UNKNOWN, Parser
 from foldmill_fabricate.plotter.simulator.quirks import Quirk
@@ -17,6 +23,7 @@ if TYPE_CHECKING:
 OVERLAP, FRAMING, OVERFLOW = 10, 15, 16
 """I/O errors, as ESC.E answers them."""
 
+_LAST_CHARACTER = 126
 _ANSWER_TIME = 0.002
 """s from a question's last byte to the answer's first."""
 
@@ -208,6 +215,10 @@ class HpFirmware:
             self._on = command.letter in "(Y"
 
     def _agree(self, command: Command) -> None:
+        """Set a handshake; behind the first parameter of H, I, M and N stand characters."""
+        if command.letter in "HIMN" and max(command.parameters[1:], default=0) > _LAST_CHARACTER:
+            self.fault(PARAMETER_RANGE)
+            return
         self.agreement.obey(command.letter, command.parameters)
         size = self._device.size
         self.agreement.block = min(self.agreement.block, size // 2)
