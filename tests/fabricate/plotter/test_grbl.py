@@ -74,6 +74,11 @@ def test_a_laser_marks_with_its_beam_on_and_not_on_g0(machine: Make) -> None:
     assert strokes == [(((800, 0), (1600, 0), (2400, 0)), "S800"), (((3200, 0), (4000, 0)), "S800")]
 
 
+def test_a_move_on_the_last_line_is_made_as_it_was_asked_for(knife: Simulator, told: Told) -> None:
+    assert told(knife, b"G0X5\nX10M2\n", 5.0) == b"ok\r\nok\r\n"
+    assert b"MPos:10.000" in told(knife, b"?")
+
+
 def test_ok_means_taken_until_the_planner_is_full(knife: Simulator, told: Told) -> None:
     lines = b"".join(b"G1X%dF60\n" % (n + 1) for n in range(20))  # a second each
     assert told(knife, lines, 0.5).count(b"ok") == 15

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 REALTIME = frozenset(b"?!~\x18") | frozenset(range(0x80, 0x100))
 """Characters that are obeyed at once and never enter the buffer."""
 BANNER = "\r\nGrbl 1.1f ['$' for help]\r\n"
+_SLOWEST = 1.0
+"""mm/min: whatever F says."""
 _ABORTED, _BEYOND = 3, 2
 """Alarms: reset while in motion; a target beyond the machine's travel."""
 
@@ -207,19 +209,19 @@ class GrblFirmware:
             self._parked = lambda _: values["P"]
         elif codes.get("spindle", modal.spindle) != modal.spindle:
             modal.spindle = codes["spindle"]
-            self._parked = lambda then: self._switch(block, scale, then)
-        elif block.axes and not self._plan(block, scale, now):
+            self._parked = lambda then: self._switch(block, scale, motion, then)
+        elif block.axes and not self._plan(block, scale, motion, now):
             return
         else:
             self._say("ok\r\n", now)
 
-    def _switch(self, block: gcode.Block, scale: float, now: float) -> float:
+    def _switch(self, block: gcode.Block, scale: float, motion: str, now: float) -> float:
         seconds = self._motors.switch(self._modal.spindle, self._modal.power)
         if block.axes:
-            self._plan(block, scale, now)
+            self._plan(block, scale, motion, now)
         return seconds
 
-    def _plan(self, block: gcode.Block, scale: float, now: float) -> bool:
+    def _plan(self, block: gcode.Block, scale: float, motion: str, now: float) -> bool:
         """Put a leg behind the others; False where it leads out of the machine."""
         modal, values = self._modal, block.values
         target = list(modal.target)
@@ -233,9 +235,9 @@ class GrblFirmware:
             self._say("[MSG:Reset to continue]\r\n", now)
             return False
         if target != modal.target:
-            fast = modal.motion != "G1"
+            fast = motion != "G1"
             power = modal.power if modal.spindle != "M5" else 0.0
-            self._planned.append(Leg(tuple(target), fast, modal.feed / 60, power))
+            self._planned.append(Leg(tuple(target), fast, max(_SLOWEST, modal.feed) / 60, power))
         modal.target = target
         return True
 
