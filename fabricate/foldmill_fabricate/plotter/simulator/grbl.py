@@ -289,6 +289,6 @@ class GrblFirmware:
         if self._settings.tells_buffers:
             planned = len(self._planned) + (self._running is not None)
             parts.append(f"Bf:{self._settings.planner - planned},{self._device.free}")
-        running = self._running.feed * 60 if self._running and state == "Run" else 0
-        parts.append(f"FS:{running:.0f},{self._motors.power:.0f}")
+        feed = self._device.carriage.speed * 60 if self._running and state == "Run" else 0
+        parts.append(f"FS:{feed:.0f},{self._motors.power:.0f}")
         return f"<{'|'.join(parts)}>\r\n"

@@ -14,11 +14,11 @@ from select import select
 from threading import Event
 from typing import Any
 
-from serial import SerialException, serial_for_url
 from serial.rfc2217 import PortManager
 
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.simulator.protocol_sim import Serial
 from foldmill_fabricate.plotter.simulator.servers import accepted, listening, threaded
 
 _WAIT = 0.005
@@ -60,7 +60,7 @@ class _Client:
 
 def _admit(simulator: Simulator, url: str, listener: socket.socket, stop: Event) -> None:
     for user in accepted(simulator, listener, stop):
-        with suppress(SerialException), serial_for_url(url, timeout=0) as port:
+        with suppress(OSError), Serial(url, timeout=0) as port:
             _serve(simulator, port, user, stop)
 
 

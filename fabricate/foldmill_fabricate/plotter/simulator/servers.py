@@ -176,8 +176,9 @@ def _adopt(simulator: Simulator, terminal: Terminal) -> None:
 def _admit(simulator: Simulator, listener: socket.socket, stop: threading.Event) -> None:
     for user in accepted(simulator, listener, stop):
         user.setblocking(False)
-        if not simulator.unplugged:
-            _pump(simulator, user, stop, lambda: None)
+        with suppress(ConnectionError):
+            if not simulator.unplugged:
+                _pump(simulator, user, stop, lambda: None)
 
 
 def _pump(

@@ -16,40 +16,38 @@ if TYPE_CHECKING:
 
 _EVERY = 0.25
 """s between two pictures."""
-_BAR = 12
+_BAR = 5
 """Characters of a full buffer."""
 
 
 def table(simulators: Mapping[str, Simulator]) -> Table:
-    """Return one row for each plotter: address → simulator."""
+    """Return one row for each plotter: address → simulator; * is the face that is up."""
+    from rich.box import SIMPLE
     from rich.table import Table
 
-    shown = Table(expand=False)
-    for title in ("", "plotter", "does", "x, y mm", "tool", "buffer", "lost", "strokes", "faults"):
-        shown.add_column(title, no_wrap=True)
-    for number, (address, simulator) in enumerate(simulators.items(), 1):
-        shown.add_row(str(number), *row(address, simulator))
+    shown = Table(box=SIMPLE, pad_edge=False, padding=(0, 1, 0, 0))
+    titles = ("", "plotter", "does", "x, y mm", "tool", "buffer", "lost", "front", "reverse")
+    for title in (*titles, "faults"):
+        shown.add_column(title, overflow="fold")
+    for number, simulator in enumerate(simulators.values(), 1):
+        shown.add_row(str(number), *row(simulator))
     return shown
 
 
-def row(address: str, simulator: Simulator) -> list[str]:
+def row(simulator: Simulator) -> list[str]:
     """Return what is told of one plotter, in words."""
     simulator.advance()
     device, sheet = simulator.device, simulator.sheet
     x, y = (each / simulator.machine.axes.units_per_mm for each in device.carriage.at)
-    counts = [len(sheet.seen(face)) for face in Face]
-    strokes = " ".join(
-        f"{face}{'*' if face is sheet.up else ''} {count}"
-        for face, count in zip(Face, counts, strict=True)
-    )
+    held = device.size - device.free
     return [
-        f"{simulator.machine.slug} {address}",
+        simulator.machine.slug,
         simulator.doing,
         f"{x:.1f}, {y:.1f}",
         f"{device.carriage.tool} {'down' if device.carriage.down else 'up'}",
-        f"{_bar(device.size - device.free, device.size)} {device.size - device.free}/{device.size}",
+        f"{_bar(held, device.size)} {held}/{device.size}",
         str(device.traffic.overruns),
-        strokes,
+        *(f"{len(sheet.seen(face))}{'*' if face is sheet.up else ''}" for face in Face),
         ", ".join(sorted(device.active)),
     ]
 
