@@ -165,31 +165,53 @@ def simulate(
         str, typer.Option(help="A slug of `foldmill machines`.")
     ] = "generic-hpgl-600",
     pty: Annotated[
-        Path | None, typer.Option(help="Offer a serial port, with this symbolic link to it.")
+        list[str] | None,
+        typer.Option(help="Offer a serial port, with this symbolic link to it; repeatable."),
     ] = None,
     tcp: Annotated[
-        int | None, typer.Option(min=1, max=65535, help="Offer a TCP port of this number.")
+        list[str] | None, typer.Option(help="Offer a TCP port of this number; repeatable.")
+    ] = None,
+    rfc2217: Annotated[
+        list[str] | None,
+        typer.Option(help="Offer a network serial port of this number; repeatable."),
     ] = None,
     draw: Annotated[Path | None, typer.Option(help="A folder for front and reverse.")] = None,
     speed_up: Annotated[float, typer.Option(help="How many times faster than the machine.")] = 1.0,
     buffer: Annotated[int | None, typer.Option(help="Bytes of its buffer.")] = None,
-    handshake: Annotated[str | None, typer.Option(help="none, xon-xoff or esc-b.")] = None,
+    handshake: Annotated[
+        str | None, typer.Option(help="none, xon-xoff, rts-cts, dtr, esc-b or enq-ack.")
+    ] = None,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME@PLACE[xAMOUNT][:SECONDS], such as stall@3strokes:5s; repeatable."),
+    ] = None,
+    quirk: Annotated[
+        list[str] | None, typer.Option(help="A habit, such as second-in-cancels; repeatable.")
+    ] = None,
+    live: Annotated[
+        bool | None, typer.Option(help="Redraw a table of what it does; on a terminal it does.")
+    ] = None,
 ) -> None:
-    """Be a plotter behind a serial or TCP port, and draw what is cut on each face."""
-    from foldmill_fabricate.plotter.simulator import devices, run, servers
+    """Be one plotter or several behind serial or TCP ports, and draw what is cut on each face.
 
-    if (pty is None) == (tcp is None):
-        raise FoldmillError("Say where the simulator is found: --pty LINK or --tcp PORT.")
-    if speed_up <= 0:
-        raise FoldmillError(f"--speed-up must be above 0, not {speed_up:g}.")
-    options = {"machine": machine, "clock": "real", "speed_up": str(speed_up)}
+    Each port may have options of its own: --tcp "9100?machine=hp-7475a&fault=silence@500".
+    """
+    from foldmill_fabricate.plotter.simulator import run
+    from foldmill_fabricate.plotter.simulator.offers import offer
+
+    if not (pty or tcp or rfc2217):
+        raise FoldmillError(
+            "Say where the simulator is found: --pty LINK, --tcp PORT or --rfc2217 PORT."
+        )
+    options = {"machine": machine, "speed_up": str(speed_up)}
     options |= {"buffer": str(buffer)} if buffer is not None else {}
     options |= {"handshake": handshake} if handshake is not None else {}
-    simulator = devices.made(machine, options)
-    server = (
-        servers.serve_pty(simulator, pty) if tcp is None else servers.serve_tcp(simulator, port=tcp)
-    )
-    run.run(simulator, server, sys.stdin, typer.echo, draw)
+    options |= {"fault": ",".join(fault or []), "quirk": ",".join(quirk or [])}
+    offers = [offer("pty", each, options) for each in pty or []]
+    offers += [offer("tcp", each, options) for each in tcp or []]
+    offers += [offer("rfc2217", each, options) for each in rfc2217 or []]
+    terminal = sys.stdout.isatty() if live is None else live
+    run.run(offers, sys.stdin, typer.echo, draw, terminal)
 
 
 def demo(

@@ -131,6 +131,10 @@ class Dialect(Preset):
     """What stands after each instruction."""
     max_instruction: int = Field(240, ge=32)
     """Longest instruction, bytes."""
+    second_in_cancels: bool = False
+    """Whether an IN that arrives later cancels what the machine has not begun."""
+    controls: Literal["hp-7475", "hp-7550"] = "hp-7475"
+    """Which ESC sequences it knows; the HP 7550A has more."""
 
 
 class Motion(Preset):
@@ -154,8 +158,9 @@ class Serial(Preset):
     """How the machine is talked to."""
 
     baud: int = 9600
-    handshake: Literal["none", "xon-xoff", "esc-b"]
-    """How the machine says that it has room: not at all, by XON and XOFF, or when asked by ESC.B.
+    handshake: Literal["none", "xon-xoff", "rts-cts", "dtr", "esc-b", "enq-ack"]
+    """How the machine says that it has room: not at all, by XON and XOFF, by its RTS or DTR line,
+    or when asked by ESC.B or ENQ.
     """
     buffer: int = Field(1024, ge=64)
     """Bytes the machine holds before it overruns."""

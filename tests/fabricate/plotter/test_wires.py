@@ -15,6 +15,7 @@ from foldmill_fabricate.plotter.errors import PortUnavailable
 from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Status, as_sent, send
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.simulator.offers import Offer
 from foldmill_fabricate.plotter.simulator.run import run
 from foldmill_fabricate.plotter.simulator.servers import serve_pty, serve_tcp
 from foldmill_fabricate.plotter.simulator.trial import fine_lines, without_questions
@@ -117,7 +118,7 @@ def test_the_tool_obeys_short_commands_and_leaves_pictures(machine: Make, tmp_pa
             yield "flip\n"
         yield from ("dance", "status", "draw", "new", "quit", "flip")
 
-    run(simulator, serve_pty(simulator), operator(), said.append, tmp_path / "drawn")
+    run([Offer(simulator, "pty", "")], operator(), said.append, tmp_path / "drawn")
     assert [len(simulator.sheets[0].strokes[face]) for face in Face] == [1, 2]
     assert len(simulator.sheets) == 2
     assert "flip (turn the sheet over)" in said[4]

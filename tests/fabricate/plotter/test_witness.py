@@ -15,7 +15,7 @@ from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.program import ready
 from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.sender import Status, send
-from foldmill_fabricate.plotter.simulator.device import Faults
+from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.plotter.witness import LONG, watched
 
@@ -80,7 +80,7 @@ def test_a_machine_that_never_answers_confirms_nothing(
 def test_when_a_machine_falls_silent_the_truth_lies_between_the_books_two_numbers(
     dead_after: int, machine: Make, plugged: Plug
 ) -> None:
-    simulator = Simulator(machine(), faults=Faults(silent_after=dead_after))
+    simulator = Simulator(machine(), faults=parse(f"silence@{dead_after}"))
     book = Book(simulator)
     with open_port(plugged(simulator), machine()) as port, pytest.raises(NoAnswer):
         send(PROGRAM, port, machine(), book=book)

@@ -13,7 +13,7 @@ from foldmill_fabricate.plotter.program import instructions
 from foldmill_fabricate.plotter.sender import Delivery, as_sent, send
 from foldmill_fabricate.plotter.session import reserve
 from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.plotter.simulator.device import Traffic
+from foldmill_fabricate.plotter.simulator.buffer import Traffic
 from foldmill_fabricate.plotter.simulator.gauge import Use
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
