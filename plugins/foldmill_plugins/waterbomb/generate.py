@@ -14,6 +14,7 @@ from foldmill.folded import fold_pattern
 from foldmill_plugins.waterbomb import feasibility, pieces, simple, status
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.convergence import steps
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.fit import went
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -33,7 +34,7 @@ def generate(params: WaterbombParams) -> Fold:
 
     Raises ImpossibleGeometry where no developable form is found, or it cannot be laid flat.
     """
-    build = Build(params)
+    build = settled(params)
     require_converged(build)
     cut = build.topology.opened()
     solid = from_zero(build, build.developed.points[build.topology.origin])
@@ -151,6 +152,7 @@ def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
         "status": state.facts(),
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
+        "depth": build.depth,
         "feasibility": feasibility.promised(build),
         "convergence": steps(found),
         **({} if build.fit is None else {"fit": went(build.fit)}),

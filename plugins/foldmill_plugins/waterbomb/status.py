@@ -98,7 +98,6 @@ def _signs(pattern: CreasePattern, wanted: Codes) -> tuple[Finding, ...]:
         f"{len(wrong)} of {len(pattern.edges)} edges {'folds' if is_one else 'fold'} otherwise "
         f"than in a waterbomb tessellation; this one should be a "
         f"{names[Assignment(wanted[first])]} and folds by {pattern.fold_angles[first]:.3g}°.",
-        "Take another depth, or another n_u and n_v, so that cells are more nearly square; round a "
-        "torus an even n_v, which closes it.",
+        "Take another depth, or another n_u and n_v, so that cells are more nearly square.",
     )
     return (finding,)
