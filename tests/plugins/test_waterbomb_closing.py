@@ -15,8 +15,14 @@ from foldmill_plugins.waterbomb.topology import Topology
 
 TUBE = {
     "kind": "expression",
-    **{"x": "cos(v)", "y": "u", "z": "sin(v)", "u_start": "-2", "u_end": "2"},
-    **{"v_start": "0", "v_end": "2*pi", "v_closes": True},
+    "x": "cos(v)",
+    "y": "u",
+    "z": "sin(v)",
+    "u_start": "-2",
+    "u_end": "2",
+    "v_start": "0",
+    "v_end": "2*pi",
+    "v_closes": True,
 }
 """A tube that closes along v and is open along u."""
 
