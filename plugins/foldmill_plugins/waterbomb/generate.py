@@ -145,11 +145,25 @@ def _symmetry(build: Build, cut: Topology, solid: Floats) -> Symmetry | None:
     return Symmetry(n_u, wedge, one_sided=True)
 
 
+def told(figure: float) -> float:
+    """Return a figure as it stands in a file, with three digits: more of them are noise."""
+    return float(f"{figure:.3g}")
+
+
 def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
     found, target = build.developed, Target.of(build.surface)
     away = target.distances(found.points) / target.diagonal
     return {
         "status": state.facts(),
+        "designed": {
+            **state.said(),
+            "distance_mean": told(float(away.mean())),
+            "distance_largest": told(float(away.max())),
+            "iterations": found.iterations,
+            "e_total_deg": told(found.error),
+            "start": build.start,
+            "depth": build.depth,
+        },
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
         "depth": build.depth,

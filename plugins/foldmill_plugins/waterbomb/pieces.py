@@ -80,6 +80,7 @@ def one_of(whole: Whole, wanted: Pieces, state: Status) -> Fold:
     found = divided(whole, wanted)
     own = replace(state, is_flat_simple=found.is_simple(min(wanted.piece, found.count) - 1))
     about = {**whole.fold.meta, "status": own.facts(), "pieces": facts(found, wanted.piece)}
+    about["designed"] = {**about["designed"], **own.said()}
     if found.count > 1:
         about["title"] = f"Waterbomb tessellation, piece {wanted.piece} of {found.count}"
     said = (

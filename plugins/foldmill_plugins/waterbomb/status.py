@@ -40,6 +40,10 @@ class Status:
         )
         return tuple(name for name, failed in named if failed) or ("ok",)
 
+    def said(self) -> dict[str, Any]:
+        """Return the verdicts in one text, as they travel with a file."""
+        return {"verdict": ", ".join(self.verdicts)}
+
     def facts(self) -> dict[str, Any]:
         """Return verdicts and figures, for files and people."""
         return {"verdicts": list(self.verdicts), **vars(self)}
