@@ -183,12 +183,44 @@ def test_notches_of_a_seam_are_as_many_as_its_number_and_face_each_other(
 def test_a_sheet_that_lies_upon_itself_becomes_pieces_that_do_not() -> None:
     whole = DESIGN.run(HELICOID)
     assert whole.meta["status"]["verdicts"] == ["flat-overlap"]
-    assert any("Cut it into pieces" in each for each in errors(whole))
+    assert any("Cut it into pieces by --pieces.auto true" in each for each in errors(whole))
     for part in all_of(HELICOID, 2, 1, tabs=4):
         assert errors(part) == []
         assert part.meta["status"]["verdicts"] == ["ok"]
         assert outline(part).is_valid
         assert outline(part).area == pytest.approx(area(part))
+
+
+def test_a_sheet_that_lies_upon_itself_is_cut_by_itself_into_as_few_pieces_as_it_takes() -> None:
+    fold, graph = DESIGN.run(HELICOID), Topology(60, 6)
+    found = divided(Whole(fold, graph, graph.origin), Pieces(auto=True, tabs=4))
+    assert found.count > 1
+    for count in range(1, found.count):
+        for columns in [n for n in range(1, count + 1) if count % n == 0 and count // n <= 6]:
+            fewer = made(
+                Whole(fold, graph, graph.origin), Pieces(notch=0), columns, count // columns
+            )
+            assert not all(map(fewer.is_simple, range(count)))
+    for n in range(1, found.count + 1):
+        part = DESIGN.run({**HELICOID, "pieces": {"auto": True, "tabs": 4, "piece": n}})
+        assert errors(part) == []
+        assert part.meta["designed"]["verdict"] == "ok"
+        assert part.meta["designed"]["piece"] == f"{n} of {found.count}"
+        assert outline(part).is_valid
+
+
+def test_more_pieces_than_it_takes_are_kept_where_they_are_asked_for() -> None:
+    wanted = {"auto": True, "columns": 3, "rows": 2}
+    assert DESIGN.run({**HELICOID, "pieces": wanted}).meta["pieces"]["of"] == 6
+
+
+@pytest.mark.parametrize("form", [SADDLE, TUBE])
+def test_a_sheet_that_does_not_lie_upon_itself_is_left_as_it_is(form: dict[str, Any]) -> None:
+    plain, auto = DESIGN.run(form), DESIGN.run({**form, "pieces": {"auto": True}})
+    assert np.array_equal(plain.pattern.vertices, auto.pattern.vertices)
+    assert {k: v for k, v in plain.meta.items() if k != "design"} == {
+        k: v for k, v in auto.meta.items() if k != "design"
+    }
 
 
 def test_what_is_wrong_with_the_whole_is_told_of_each_piece() -> None:
@@ -254,7 +286,8 @@ def test_pieces_that_cannot_be_are_refused_in_a_sentence(pieces: dict[str, Any],
 
 
 def test_one_sheet_without_tabs_is_the_design_as_it_was() -> None:
-    assert Pieces().is_whole
+    assert Pieces().is_whole(is_simple=True)
+    assert Pieces().is_whole(is_simple=False)
     assert "pieces" not in DESIGN.run(SADDLE).meta
 
 

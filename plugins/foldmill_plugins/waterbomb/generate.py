@@ -57,7 +57,9 @@ def generate(params: WaterbombParams) -> Fold:
         meta=_facts(build, state, scale),
     )
     whole = pieces.Whole(fold, cut, build.topology.origin)
-    return fold if params.pieces.is_whole else pieces.one_of(whole, params.pieces, state)
+    if params.pieces.is_whole(is_simple=state.is_flat_simple):
+        return fold
+    return pieces.one_of(whole, params.pieces, state)
 
 
 def require_converged(build: Build) -> None:

@@ -82,7 +82,7 @@ def overlap(state: Status) -> tuple[Finding, ...]:
         Severity.ERROR,
         "outline",
         "The form is developable, but laid flat its sheet lies upon itself.",
-        "Cut it into pieces, such as --pieces.columns 2, or take another depth.",
+        "Cut it into pieces by --pieces.auto true, or take another depth.",
     )
     return (finding,)
 
