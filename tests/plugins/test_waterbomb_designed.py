@@ -8,12 +8,10 @@ from typing import Any
 
 import pytest
 from command import Run
+from waterbomb_targets import NARROW
 
 from foldmill.exchange import read, write
 from foldmill_plugins.waterbomb import DESIGN
-
-PLAIN = {"start": "uniform", "boundary": "fixed", "rim": "outside"}
-NARROW = {"surface": {"kind": "catenoid"}, "n_u": 8, "n_v": 12, **PLAIN}
 
 
 @pytest.mark.parametrize("name", ["catenoid", "torus", "moebius"])

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from waterbomb_targets import HELICOID as STAIRS
+from waterbomb_targets import NARROW
 
 from foldmill import Assignment, Fold, ImpossibleGeometry, InvalidParameters
 from foldmill.check import check
@@ -21,26 +23,10 @@ from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.pieces import Made, Whole, divided, made, piece
 from foldmill_plugins.waterbomb.topology import Topology
 
-HELICOID = {
-    "surface": {
-        "kind": "expression",
-        "x": "v*cos(u)",
-        "y": "v*sin(u)",
-        "z": "0.2*u",
-        "u_start": 0,
-        "u_end": "4*pi",
-        "v_start": 0.3,
-        "v_end": 1,
-    },
-    "n_u": 60,
-    "n_v": 6,
-    "start": "uniform",
-    "size": 800.0,
-}
+HELICOID = {**STAIRS, "size": 800.0}
 SADDLE = {"surface": {"kind": "hyperbolic-paraboloid"}, "n_u": 6, "n_v": 5}
 TUBE = {"surface": {"kind": "catenoid"}, "n_u": 8, "n_v": 5}
 TORUS = {"surface": {"kind": "torus"}, "n_u": 40, "n_v": 10, "size": 1600.0}
-PLAIN = {"start": "uniform", "boundary": "fixed", "rim": "outside"}
 CUTS = pytest.mark.parametrize(
     ("form", "columns", "rows"), [(SADDLE, 2, 3), (TUBE, 1, 2), (TUBE, 3, 2), (TORUS, 2, 1)]
 )
@@ -224,8 +210,7 @@ def test_a_sheet_that_does_not_lie_upon_itself_is_left_as_it_is(form: dict[str, 
 
 
 def test_what_is_wrong_with_the_whole_is_told_of_each_piece() -> None:
-    form = {"surface": {"kind": "catenoid"}, "n_u": 8, "n_v": 12, **PLAIN}
-    for part in all_of(form, 2, 1, notch=0):
+    for part in all_of(NARROW, 2, 1, notch=0):
         assert "self-intersecting" in part.meta["status"]["verdicts"]
         assert any("Put together, the form passes through itself" in each for each in errors(part))
 

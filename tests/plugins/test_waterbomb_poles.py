@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from waterbomb_targets import BALL, ROUND
 
 from foldmill import ImpossibleGeometry
 from foldmill_plugins.waterbomb import DESIGN
@@ -15,8 +16,6 @@ from foldmill_plugins.waterbomb.poles import PLACES, require_normals
 from foldmill_plugins.waterbomb.surfaces import TABLE
 from foldmill_plugins.waterbomb.topology import Topology
 
-ROUND = {"u_start": "0", "u_end": "2*pi", "u_closes": True}
-BALL = {"x": "cos(v)*cos(u)", "y": "cos(v)*sin(u)", "z": "sin(v)", **ROUND}
 CONE = {"x": "v*cos(u)", "y": "v*sin(u)", "z": "v", **ROUND}
 BRANCH = {"x": "u**2 - v**2", "y": "2*u*v", "z": "0.1*u"}
 CUSP = {"x": "u**2", "y": "v", "z": "u**3"}
