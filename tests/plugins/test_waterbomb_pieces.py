@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
+from stools import ONE_TOOL, machine, material
 from waterbomb_targets import HELICOID as STAIRS
 from waterbomb_targets import NARROW
 
 from foldmill import Assignment, Fold, ImpossibleGeometry, InvalidParameters
 from foldmill.check import check
 from foldmill.finding import Severity
-from foldmill_fabricate import folder
-from foldmill_fabricate.builtin import foldmill_machines, foldmill_materials
+from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.plan import make
-from foldmill_fabricate.verify import verify_folder
+from foldmill_fabricate.verify import verify
 from foldmill_plugins.waterbomb import DESIGN
 from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.pieces import Made, Whole, divided, made, piece
@@ -276,11 +275,9 @@ def test_one_sheet_without_tabs_is_the_design_as_it_was() -> None:
     assert "pieces" not in DESIGN.run(SADDLE).meta
 
 
-def test_a_piece_goes_through_plan_and_verify(tmp_path: Path) -> None:
+def test_a_piece_goes_through_plan_and_verify() -> None:
     fold = DESIGN.run(
         {**SADDLE, "size": 500.0, "pieces": {"columns": 2, "rows": 2, "tabs": 6, "piece": 3}}
     )
-    material = {each.slug: each for each in foldmill_materials()}["pp-0.75"]
-    machine = {each.slug: each for each in foldmill_machines()}["generic-hpgl-600"]
-    folder.write(fold, make(fold, material, machine), tmp_path / "job", ["hpgl"])
-    assert verify_folder(tmp_path / "job").ok
+    plan = make(fold, material(), machine(ONE_TOOL))
+    assert verify(plan, fold.pattern, hpgl.write(plan, fold)).ok
