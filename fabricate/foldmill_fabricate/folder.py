@@ -15,6 +15,8 @@ from pydantic import ValidationError
 from foldmill import Fold, installed
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate import jobsheet
+from foldmill_fabricate.coupon.answers import NAME as ANSWERS
+from foldmill_fabricate.coupon.answers import template
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.hooks import FORMATS
 from foldmill_fabricate.passes import Plan, ProgramFile
@@ -43,6 +45,8 @@ def write(fold: Fold, plan: Plan, folder: Path, formats: Sequence[str]) -> Plan:
     drawings = tuple(sorted(set(contents) - named - {PATTERN}))
     complete = plan.model_copy(update={"programs": tuple(programs), "drawings": drawings})
     contents[JOB_SHEET] = jobsheet.write(complete, fold)
+    if plan.coupon is not None and not (folder / ANSWERS).exists():  # it may be filled in
+        contents[ANSWERS] = template(plan, plan.coupon).encode()
     contents[PLAN] = (complete.model_dump_json(indent=1) + "\n").encode()
     write_all(folder, contents, stale=_files_before(folder))
     return complete

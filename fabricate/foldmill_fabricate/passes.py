@@ -16,6 +16,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from foldmill.finding import Finding
+from foldmill_fabricate.ladders import Coupon
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 
@@ -36,6 +37,12 @@ class Role(StrEnum):
     """registration hole, cut through"""
     MARK = "mark"
     """registration mark that the machine's own sensor finds, cut through"""
+    VERNIER = "vernier"
+    """lines of a coupon through the sheet, to be read against those of the other face"""
+    LABEL = "label"
+    """words on a coupon, drawn lightly"""
+    RULER = "ruler"
+    """lines of a coupon to measure by, drawn lightly"""
     WITNESS = "witness"
     """mark that tells a flipped sheet from one that was not flipped; scored"""
     SCORE = "score"
@@ -254,7 +261,7 @@ class Figures(_Value):
     travel: float
     """mm with the tool up"""
     travel_bound: float
-    """mm that no order of these strokes can go below"""
+    """mm that no order of these strokes can go below; 0 where nobody looked for it"""
     seconds: float
     """by the machine's own speeds and accelerations"""
 
@@ -283,6 +290,8 @@ class Plan(_Value):
     ties: tuple[Tie, ...]
     reliefs: tuple[Hole, ...] = ()
     """Holes at vertices."""
+    coupon: Coupon | None = None
+    """What is tried on it, where it is a coupon and not a fold."""
     passes: tuple[Pass, ...]
     figures: Figures
     findings: tuple[Finding, ...] = ()

@@ -21,6 +21,7 @@ from foldmill_fabricate.cli import (
     running,
     searching,
     sheets,
+    testing,
 )
 
 app = typer.Typer(
@@ -38,6 +39,7 @@ moving.add_to(app)
 exploring.add_to(app)
 searching.add_to(app)
 making.add_to(app)
+testing.add_to(app)
 running.add_to(app)
 sheets.add_to(app)
 

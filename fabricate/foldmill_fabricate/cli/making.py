@@ -131,7 +131,7 @@ def plan(
     from foldmill_fabricate.plan import make
 
     chosen_material, chosen_machine = presets(material, machine)
-    formats = _formats(to, chosen_machine)
+    formats = formats_for(to, chosen_machine)
     fold = load(file)
     made = make(
         fold,
@@ -155,7 +155,8 @@ def plan(
     exit_code(written.findings)
 
 
-def _formats(to: str | None, machine: Machine) -> list[str]:
+def formats_for(to: str | None, machine: Machine) -> list[str]:
+    """Return the formats asked for, by default what the machine can use."""
     if to is None:
         return ["svg", "dxf", "hpgl"] if machine.language == "hpgl" else ["svg", "dxf"]
     formats = [name.strip() for name in to.split(",") if name.strip()]
@@ -237,12 +238,12 @@ def describe(plan: Plan) -> str:
             gates = ", ".join(setup.gates) or "-"
             rows.append((f"{setup.number} {setup.name}", work.face, gates, str(strokes), repeats))
     figures = plan.figures
-    bound = figures.travel_bound / 1000
+    bound = f", no order goes below {figures.travel_bound / 1000:.2f} m"
     facts = {
         "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
         "turned by": f"{plan.placement.angle:g}°",
         "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
-        "travel": f"{figures.travel / 1000:.2f} m, no order goes below {bound:.2f} m",
+        "travel": f"{figures.travel / 1000:.2f} m{bound if figures.travel_bound else ''}",
         "time": f"{figures.seconds / 60:.1f} min without the operator's",
     }
     return "\n".join([table(rows), figure_lines(facts), finding_lines(plan.findings)])

@@ -191,6 +191,13 @@ def simulate(
     live: Annotated[
         bool | None, typer.Option(help="Redraw a table of what it does; on a terminal it does.")
     ] = None,
+    imperfect: Annotated[
+        str,
+        typer.Option(
+            help="What it makes off: scale_x=1.003,scale_y=1.003,skew=0.1,flip_dx=0.35,flip_dy=0.2 "
+            "(mm, degrees), or some of them."
+        ),
+    ] = "",
 ) -> None:
     """Be one plotter or several behind serial or TCP ports, and draw what is cut on each face.
 
@@ -207,11 +214,17 @@ def simulate(
     options |= {"buffer": str(buffer)} if buffer is not None else {}
     options |= {"handshake": handshake} if handshake is not None else {}
     options |= {"fault": ",".join(fault or []), "quirk": ",".join(quirk or [])}
+    options |= dict(_pair(each) for each in imperfect.split(",") if each.strip())
     offers = [offer("pty", each, options) for each in pty or []]
     offers += [offer("tcp", each, options) for each in tcp or []]
     offers += [offer("rfc2217", each, options) for each in rfc2217 or []]
     terminal = sys.stdout.isatty() if live is None else live
     run.run(offers, sys.stdin, typer.echo, draw, terminal)
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, _, value = text.strip().partition("=")
+    return name.strip(), value.strip()
 
 
 def demo(

@@ -56,6 +56,7 @@ _BY_NAME = {layer.name: layer for layer in LAYERS}
 _CUTS = {
     Role.HOLE: "REG",
     Role.MARK: "REG",
+    Role.VERNIER: "CUT_INNER",
     Role.RELIEF: "CUT_INNER",
     Role.CUT_INNER: "CUT_INNER",
     Role.CUT_OUTER: "CUT_OUTER",

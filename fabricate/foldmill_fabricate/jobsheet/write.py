@@ -9,6 +9,7 @@ import numpy as np
 
 from foldmill import CreasePattern, Fold
 from foldmill_fabricate.jobsheet import flip_drawing, register, words
+from foldmill_fabricate.jobsheet.coupon_page import coupon_page
 from foldmill_fabricate.jobsheet.creases import CreaseGroup, groups, middle, midpoints
 from foldmill_fabricate.jobsheet.paper import LEFT, RIGHT, Paper
 from foldmill_fabricate.passes import Plan
@@ -26,7 +27,13 @@ CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
 def write(plan: Plan, fold: Fold) -> bytes:
     """Return the job sheet of a plan as PDF, two A4 pages at true scale."""
     with canvas.own_style():
-        return _to_pdf([_machine_page(plan, fold.pattern), _folding_page(plan, fold)])
+        return _to_pdf([_machine_page(plan, fold.pattern), _second_page(plan, fold)])
+
+
+def _second_page(plan: Plan, fold: Fold) -> Paper:
+    if plan.coupon is None:
+        return _folding_page(plan, fold)
+    return coupon_page(plan, plan.coupon, words.findings(plan))
 
 
 def _to_pdf(pages: list[Paper]) -> bytes:

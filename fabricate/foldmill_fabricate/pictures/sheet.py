@@ -26,6 +26,12 @@ LOOKS: dict[Key, tuple[str, str, float]] = {
     (Role.HOLE, None): ("holes", "#109030", 1.4),
     (Role.MARK, None): ("registration marks", "#109030", 1.4),
     (Role.WITNESS, None): ("witness mark", "#8000a0", 1.8),
+    (Role.VERNIER, Face.FRONT): ("front vernier lines", "#109030", 0.9),
+    (Role.VERNIER, Face.REVERSE): ("reverse vernier lines", "#b00060", 0.9),
+    (Role.RULER, Face.FRONT): ("front lines to measure by", "#404040", 0.8),
+    (Role.RULER, Face.REVERSE): ("reverse lines to measure by", "#a08060", 0.8),
+    (Role.LABEL, Face.FRONT): ("words on the front", "#0050d0", 0.7),
+    (Role.LABEL, Face.REVERSE): ("words on the reverse", "#f07800", 0.7),
 }
 """Name, colour and width in points; both faces are drawn unmirrored."""
 

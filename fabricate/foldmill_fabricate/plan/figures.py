@@ -15,8 +15,13 @@ from foldmill_fabricate.toolpath.ways import ways
 Floats = NDArray[np.float64]
 
 
-def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip) -> Figures:
-    """Return the figures of the whole job, the tool starting in the carrier's corner."""
+def measure(
+    passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip, *, bounded: bool = True
+) -> Figures:
+    """Return the figures of the whole job, the tool starting in the carrier's corner.
+
+    bounded : whether to look for the travel that no order goes below; it takes longest.
+    """
     at = np.zeros(2)
     drawn = travel = bound = seconds = 0.0
     strokes = lifts = 0
@@ -27,7 +32,7 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
             lifts += len(paths)
             drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
             travel += order.travel(paths, at)
-            bound += _bound(one_pass.face, setup, at, sheet, flip)
+            bound += _bound(one_pass.face, setup, at, sheet, flip) if bounded else 0.0
             seconds += _seconds(paths, at, setup, machine)
             at = paths[-1][-1] if paths else at
     return Figures(

@@ -12,7 +12,10 @@ from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 _PROCESS = {
     Role.HOLE: "cut",
     Role.MARK: "cut",
+    Role.VERNIER: "cut",
     Role.WITNESS: "score",
+    Role.LABEL: "score",
+    Role.RULER: "score",
     Role.SCORE: "score",
     Role.RELIEF: "cut",
     Role.CUT_INNER: "cut",
@@ -29,6 +32,14 @@ _SUPERFLUOUS = {
 
 def prove_process(plan: Plan) -> list[Finding]:
     """Check passes, order of roles, gates, and each set-up's values."""
+    found = prove_order(plan)
+    for setup in (setup for side in plan.passes for setup in side.setups):
+        found += _value_findings(plan, setup)
+    return found
+
+
+def prove_order(plan: Plan) -> list[Finding]:
+    """Check passes, order of roles, gates, and that the processes suit material and machine."""
     setups = [(side.face, setup) for side in plan.passes for setup in side.setups]
     found = _pass_findings(plan)
     numbers = [setup.number for _, setup in setups]
@@ -36,10 +47,7 @@ def prove_process(plan: Plan) -> list[Finding]:
         text = f"The set-ups are numbered {numbers}, not 1, 2, 3 … in order of work."
         found.append(_error("set-ups", "plan", text))
     found += _gate_findings(plan, setups)
-    found += _depth_findings(plan)
-    for _, setup in setups:
-        found += _value_findings(plan, setup)
-    return found
+    return found + _depth_findings(plan)
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
@@ -54,6 +62,7 @@ def _pass_findings(plan: Plan) -> list[Finding]:
         found.append(_error("passes", "plan", text))
     for k, side in enumerate(plan.passes):
         roles = [operation.role for setup in side.setups for operation in setup.operations]
+        roles = [role for role in roles if role is not Role.VERNIER]  # cut with whatever is cut
         where = f"{side.face} pass"
         for before, after in pairwise(roles):
             if _ORDER.index(after) < _ORDER.index(before):
@@ -73,7 +82,10 @@ def _plural(role: Role) -> str:
     return {
         Role.HOLE: "Holes",
         Role.MARK: "Registration marks",
+        Role.VERNIER: "Vernier lines",
         Role.WITNESS: "Witness marks",
+        Role.LABEL: "Words",
+        Role.RULER: "Lines to measure by",
         Role.SCORE: "Scores",
         Role.RELIEF: "Relief holes",
         Role.CUT_INNER: "Inner cuts",

@@ -6,11 +6,12 @@ from foldmill import CreasePattern
 from foldmill.finding import Finding
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify.asked import Asked
+from foldmill_fabricate.verify.coupon import prove_coupon
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
 from foldmill_fabricate.verify.planned import planned
-from foldmill_fabricate.verify.process import prove_process
+from foldmill_fabricate.verify.process import prove_order, prove_process
 from foldmill_fabricate.verify.register import prove_register
 from foldmill_fabricate.verify.relief import prove_relief
 from foldmill_fabricate.verify.waste import prove_waste
@@ -20,6 +21,13 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
     """Derive again what the plan must hold, and compare; nothing of the planner is used."""
     asked = Asked(plan, pattern)
     strokes = planned(plan)
+    if plan.coupon is not None:
+        return [
+            *prove_order(plan),
+            *prove_coupon(asked, plan.coupon, strokes),
+            *prove_waste(asked, strokes),
+            *prove_lead_ins(asked),
+        ]
     return [
         *prove_process(plan),
         *prove_creases(asked, strokes),

@@ -7,7 +7,8 @@ when the next one comes.
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from dataclasses import fields
+from math import inf, isfinite
 from urllib.parse import parse_qsl, urlsplit
 
 from pydantic import ValidationError
@@ -18,6 +19,7 @@ from foldmill_fabricate import shelf
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock, VirtualClock
 from foldmill_fabricate.plotter.simulator import faults, quirks
+from foldmill_fabricate.plotter.simulator.drawing import Imperfection
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.plotter.simulator.modem import Wiring
 
@@ -42,8 +44,9 @@ def behind(url: str) -> Simulator:
     """Return the simulator behind an address, made on first use.
 
     ``sim://NAME?machine=SLUG&buffer=255&handshake=esc-b&baud=9600&answers=no&speed_up=10&clock=real
-    &fault=silence@5000,slow@0x1.5&quirk=needs-in&wiring=three-wires``; the machine is NAME where
-    none is given. Raises UnknownName for a machine, InvalidInput for an option, that there is not.
+    &fault=silence@5000,slow@0x1.5&quirk=needs-in&wiring=three-wires&scale_x=1.003&flip_dx=0.35``;
+    the machine is NAME where none is given. Raises UnknownName for a machine, InvalidInput for an
+    option, that there is not.
     """
     if url not in _plugged:
         parts = urlsplit(url)
@@ -59,14 +62,16 @@ def made(name: str, options: dict[str, str]) -> Simulator:
         key: left.pop(key) for key in ("buffer", "handshake", "baud", "answers") if key in left
     }
     speed_up = _number(left, "speed_up")
+    off = _imperfection(left)
     clock, wiring = left.pop("clock", "virtual"), left.pop("wiring", Wiring.FULL)
     wrong, habits = left.pop("fault", ""), left.pop("quirk", "")
     if left or clock not in _CLOCKS or wiring not in set(Wiring):
         option = next(iter(left), f"clock={clock}" if clock not in _CLOCKS else f"wiring={wiring}")
         raise InvalidInput(
             f"A simulated plotter has no option {option!r}. There are: machine, buffer, handshake, "
-            "baud, answers, speed_up, fault, quirk, wiring=full or wiring=three-wires, and "
-            "clock=virtual or clock=real."
+            "baud, answers, speed_up, fault, quirk, "
+            f"{', '.join(each.name for each in fields(Imperfection))}, wiring=full or "
+            "wiring=three-wires, and clock=virtual or clock=real."
         )
     return Simulator(
         adjusted(machine, changed),
@@ -75,7 +80,26 @@ def made(name: str, options: dict[str, str]) -> Simulator:
         faults=faults.parse(wrong),
         quirks=quirks.parse(habits),
         wiring=Wiring(wiring),
+        imperfection=off,
     )
+
+
+def _imperfection(options: dict[str, str]) -> Imperfection:
+    """Take what a machine is off out of options; raises InvalidInput for no number."""
+    given: dict[str, float] = {}
+    for field in fields(Imperfection):
+        text = options.pop(field.name, None)
+        if text is None:
+            continue
+        try:
+            given[field.name] = float(text)
+        except ValueError:
+            given[field.name] = inf
+        is_scale = field.name.startswith("scale")
+        least, most = (0.9, 1.1) if is_scale else (-10.0, 10.0)
+        if not isfinite(given[field.name]) or not least <= given[field.name] <= most:
+            raise InvalidInput(f"{field.name}={text}: write a number from {least:g} to {most:g}.")
+    return Imperfection(**given)
 
 
 def adjusted(machine: Machine, serial: dict[str, str]) -> Machine:

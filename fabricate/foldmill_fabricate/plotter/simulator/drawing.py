@@ -14,6 +14,35 @@ Step = tuple[int, int]
 
 
 @dataclass(frozen=True)
+class Imperfection:
+    """How far a machine's mechanics are off what it is told, and how a flipped sheet lies on it."""
+
+    scale_x: float = 1.0
+    """Lengths along the carrier's x come out multiplied with this; so do the next along y."""
+    scale_y: float = 1.0
+    skew: float = 0.0
+    """deg by which a line along y leans to the right."""
+    flip_dx: float = 0.0
+    """mm by which a flipped sheet lies too far to the right, as the machine sees it."""
+    flip_dy: float = 0.0
+    """mm by which it lies too far up."""
+
+    def __call__(self, carrier: NDArray[np.float64], face: Face) -> NDArray[np.float64]:
+        """Return where told points (n, 2), mm, come to be on a sheet that lies where it ought to.
+
+        x' = scale_x·(x + y·tan skew), y' = scale_y·y, from the carrier's lower left corner; and a
+        sheet that lies too far to the right gets its lines too far to the left.
+        """
+        x, y = carrier.T
+        leant = self.scale_x * (x + y * np.tan(np.radians(self.skew)))
+        off = (self.flip_dx, self.flip_dy) if face is Face.REVERSE else (0.0, 0.0)
+        return np.column_stack([leant - off[0], self.scale_y * y - off[1]])
+
+
+PERFECT = Imperfection()
+
+
+@dataclass(frozen=True)
 class Drawn:
     """One stroke as the machine made it."""
 
@@ -27,11 +56,19 @@ class Drawn:
     """Steps, machine axes; a single point where the tool went down and up in one place."""
     setting: str = ""
     """What else it was made with, in words, such as a laser's power."""
+    face: Face = Face.FRONT
+    """Which face was up."""
+    imperfection: Imperfection = PERFECT
+    """Of the machine that made it."""
 
     def millimetres(self, axes: Axes) -> NDArray[np.float64]:
-        """Return carrier coordinates (n, 2), mm, as the machine sees the face: reverse mirrored."""
+        """Return carrier coordinates (n, 2), mm, as the machine sees the face: reverse mirrored.
+
+        Where the line is, on a machine that is off; not where it was told to go.
+        """
         xy = np.array(self.points, float) / axes.units_per_mm
-        return xy[:, ::-1] if axes.swap else xy
+        told = xy[:, ::-1] if axes.swap else xy
+        return told if self.imperfection == PERFECT else self.imperfection(told, self.face)
 
 
 @dataclass
@@ -39,6 +76,7 @@ class DrawnSheet:
     """A sheet on the machine: the face that is up, and the strokes on both."""
 
     up: Face = Face.FRONT
+    imperfection: Imperfection = PERFECT
     strokes: dict[Face, list[Drawn]] = field(default_factory=lambda: {face: [] for face in Face})
     """Those that have ended."""
     _begun: tuple[int, float, float | None, str] | None = None
@@ -92,4 +130,5 @@ class DrawnSheet:
     def _stroke(self) -> Drawn:
         assert self._begun is not None
         tool, speed, force, setting = self._begun
-        return Drawn(tool, speed, force, tuple(self._points), setting)
+        way = tuple(self._points)
+        return Drawn(tool, speed, force, way, setting, self.up, self.imperfection)

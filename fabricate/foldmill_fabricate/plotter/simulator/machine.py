@@ -12,7 +12,7 @@ from foldmill_fabricate.plotter.clock import Clock, VirtualClock
 from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.simulator.agreement import XOFF, XON
 from foldmill_fabricate.plotter.simulator.device import Device
-from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet
+from foldmill_fabricate.plotter.simulator.drawing import PERFECT, DrawnSheet, Imperfection
 from foldmill_fabricate.plotter.simulator.faults import Fault
 from foldmill_fabricate.plotter.simulator.gauge import Gauge
 from foldmill_fabricate.plotter.simulator.modem import Modem, Wiring
@@ -41,10 +41,11 @@ class Simulator:
         faults: Iterable[Fault] = (),
         quirks: Iterable[Quirk] = (),
         wiring: Wiring = Wiring.FULL,
+        imperfection: Imperfection = PERFECT,
     ) -> None:
-        self.machine = machine
+        self.machine, self.imperfection = machine, imperfection
         self.clock = clock or VirtualClock()
-        self.sheets = [DrawnSheet()]
+        self.sheets = [DrawnSheet(imperfection=imperfection)]
         byte_time = 10 / machine.serial.baud
         self.device = Device(machine, self.sheet, byte_time, speed_up, faults, quirks)
         self.modem = Modem(self.device, wiring)
@@ -170,7 +171,7 @@ class Simulator:
         """Lay a new sheet on the machine, once it has come to rest; raises as ``rest``."""
         self.rest()
         with self._lock:
-            self.sheets.append(DrawnSheet())
+            self.sheets.append(DrawnSheet(imperfection=self.imperfection))
             self.device.carriage.sheet = self.sheet
 
     def pause(self) -> None:
