@@ -57,4 +57,5 @@ def _value(value: Any, unit: str) -> str:
         return f"[{', '.join(_value(each, unit) for each in value)}]"
     if isinstance(value, int | float):
         return json.dumps(f"{value!r} {unit}") if unit else repr(value)
-    return json.dumps(str(value), ensure_ascii=False)
+    # TOML wants this one escaped, JSON does not
+    return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")

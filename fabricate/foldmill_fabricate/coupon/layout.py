@@ -48,9 +48,13 @@ PITCHES = (10.0, 10.1)
 """mm between a vernier's lines on the front and on the reverse."""
 MOST_LINES = 10
 """Lines on either side of a vernier's zero."""
-ROWS = {True: 5, False: 3}
+ROWS = (5, 3)
 """Verniers side by side along the axis that the flip mirrors, where a wrong scale shows double, and
 along the other."""
+LARGE = 250.0
+"""mm. On a smaller board a wrong scale shows less, and fewer verniers do."""
+LEAST = 160.0
+"""mm. The least side of a board: bars and verniers fill it."""
 TITLES: dict[LadderKind, str] = {
     "depth": "DEPTH MM",
     "force": "FORCE G",
@@ -93,7 +97,7 @@ def board(sheet: Sheet, flip: Flip, material: Material) -> Box:
         (EDGE, strip, EDGE, wider) if flip.kind == "left-right" else (strip, EDGE, wider, EDGE)
     )
     found = (x, y, sheet.width - right, sheet.height - top)
-    need = (150.0 + x + right, 150.0 + y + top)
+    need = (LEAST + x + right, LEAST + y + top)
     if sheet.width < need[0] or sheet.height < need[1]:
         raise DoesNotFit(
             f"A coupon does not fit on a blank of {sheet.width:g} × {sheet.height:g} mm. The "
@@ -117,10 +121,11 @@ def lay_out(
     """
     left, low, right, high = area
     bars = _bars(area)
-    mirrored = "x" if flip.kind == "left-right" else "y"
-    across = _verniers("x", (left + 16, low + 12), right - left - 24, ROWS[mirrored == "x"])
+    many, few = ROWS if min(right - left, high - low) >= LARGE else (ROWS[1], ROWS[1])
+    rows_x, rows_y = (many, few) if flip.kind == "left-right" else (few, many)
+    across = _verniers("x", (left + 16, low + 12), right - left - 24, rows_x)
     x, y = left + 16, low + 12 + 18 * len(across)
-    upward = _verniers("y", (x, y), high - y - 8, ROWS[mirrored == "y"])
+    upward = _verniers("y", (x, y), high - y - 8, rows_y)
     room = (x + 22 * len(upward) + 4, y + 2, right - 12, high - 12)
     ladders, words, left_out = _ladders(values, sides, room, flip)
     headed = [_heading(text, side, (left + 10, high - 4), flip) for side, text in titles.items()]

@@ -51,9 +51,9 @@ def make(
     area = layout.board(sheet, turn, material)
     coupon = _coupon(material, machine, turn, area, degree)
     drawn, holes, ties = lines(coupon, material, turn, machine.tools.host_offset)
-    fold = _sheet_as_fold(area, f"Coupon of {material.title} on {machine.slug}")
+    fold = _sheet_as_fold(area, f"Coupon, {material.slug}")
     rim = fold.pattern.vertices[fold.pattern.outline()[0]]
-    marks = registration.register(rim, sheet, turn, material)
+    marks = registration.register("holes", [rim], sheet, turn, material, machine)
     passes = setups.passes(drawn, marks, coupon, material, machine, sheet, turn)
     passes = lead_ins.added(passes, rim, marks, sheet, material, machine)
     plan = Plan(
@@ -65,6 +65,7 @@ def make(
         placement=Placement(angle=0.0, dx=0.0, dy=0.0),
         flip=turn,
         holes=marks.holes,
+        registration=marks.made,
         ties=ties,
         reliefs=holes,
         coupon=coupon,

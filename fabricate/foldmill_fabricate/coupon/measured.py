@@ -5,13 +5,13 @@ coupon give A: with width w and height h, AB = a·w, AC² − BD² = 4·a²·tan
 AD² = h²·(a²·tan² φ + b²). Calibration C, of the same form, is applied before; to make A the
 identity it becomes C·A⁻¹.
 
-A flipped sheet that lies o beside its place shows its reverse off by D where the vernier stands at
-p, F being the flip of the blank, which lies at s on the carrier, and L how the machine had been
-told to follow the sheet:
+Where a vernier's lines meet, one that ought to be at p on the front and one that ought to be at q
+on the reverse are in one place. With F the flip of the blank, which lies at s on the carrier, L how
+the machine had been told to follow a flipped sheet, and o how far it lies beside its place,
 
-    D = F(A·(L(F(p)) + s) − s − o) − (A·(p + s) − s)
+    A·(p + s) − s = F(A·(L(F(q)) + s) − s − o)
 
-A wrong scale shows in D as well, double, so that o is found only with A.
+along the vernier. A wrong scale shows as well, double, so that o is found only with A.
 """
 
 from __future__ import annotations
@@ -128,19 +128,13 @@ def _offset(plan: Plan, coupon: Coupon, answers: Answers, real: Floats, axis: in
             f"Where no lines meet, record the bars alone, and make the coupon again."
         )
     spot = _where(coupon, name, read)
+    behind = spot.copy()
+    behind[axis] -= read / 10  # there the reverse's line ought to be
     corner = np.array([plan.sheet.dx, plan.sheet.dy])
-    told = laid_off(flipped([spot], plan.flip), plan)[0] + corner
+    told = laid_off(flipped([behind], plan.flip), plan)[0] + corner
     front = real @ (spot + corner) - corner
-    lies = flipped([front], plan.flip)[0]
-    # the reverse's line lies D beside the front's; D mirrored is what its face shows
-    sense = _sense(plan, axis)
-    return round(float((real @ told)[axis] - corner[axis] - lies[axis] - sense * read / 10), 4)
-
-
-def _sense(plan: Plan, axis: int) -> float:
-    """Return -1 along the axis that the flip mirrors."""
-    mirrored = 0 if plan.flip.kind == "left-right" else 1
-    return -1.0 if axis == mirrored else 1.0
+    seen = flipped([front], plan.flip)[0]
+    return round(float((real @ told)[axis] - corner[axis] - seen[axis]), 4)
 
 
 def _where(coupon: Coupon, axis: str, read: float) -> Floats:

@@ -70,15 +70,17 @@ def _values(ladder: Ladder) -> str:
 
 
 def _vernier(coupon: Coupon, axis: str) -> str:
-    where = "in the rows along the lower edge" if axis == "x" else "in the columns on the left"
+    if axis == "y":
+        return "in the same way, in the columns on the left: along y."
     seen = (
         "slits through the sheet, from either face"
         if coupon.slits
         else "hold the sheet against the light"
     )
     return (
-        f"{where} find the front's line and the reverse's that are one straight line ({seen}); "
-        f"its number says by how many tenths of a mm the reverse lies along {axis}. Where "
+        f"in the rows along the lower edge find the front's line and the reverse's that are one "
+        f"straight line ({seen}); "
+        f"its number says by how many tenths of a mm the reverse lies along x. Where "
         f"two neighbours meet equally well take the number between them; where none meet, "
         f"record the bars and make the coupon again."
     )

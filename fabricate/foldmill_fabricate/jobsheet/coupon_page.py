@@ -13,10 +13,10 @@ def coupon_page(plan: Plan, coupon: Coupon, notes: list[str]) -> Paper:
     """Return the page; notes : sentences on what planning found."""
     page = Paper()
     page.line(f"Reading: {plan.title}", 16, weight="bold")
-    size = 118.0
+    size = 112.0
     axes = page.window(LEFT + 20, page.y - size, 140, size)
     sheet.draw(axes, plan, letters=5.5)
-    page.y -= size + 14
+    page.y -= size + 22
     for name, how in words.lines(plan, coupon):
         page.line(f"{name}: {how}", 7.5)
         page.y -= 0.4

@@ -33,7 +33,9 @@ def write(plan: Plan, fold: Fold) -> bytes:
 def _second_page(plan: Plan, fold: Fold) -> Paper:
     if plan.coupon is None:
         return _folding_page(plan, fold)
-    return coupon_page(plan, plan.coupon, words.findings(plan))
+    page = coupon_page(plan, plan.coupon, words.findings(plan))
+    _add_holes(page, plan)
+    return page
 
 
 def _to_pdf(pages: list[Paper]) -> bytes:
@@ -56,8 +58,9 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
     page.heading("Set-ups, in order of work")
     _add_setups(page, plan)
     _add_flip(page, plan)
-    _add_register(page, plan)
-    _add_budget(page, plan)
+    if plan.coupon is None:
+        _add_register(page, plan)
+        _add_budget(page, plan)
     page.y -= 2
     page.line(words.temperature(plan), 8)
     page.check_bar(12)
@@ -91,7 +94,7 @@ def _add_flip(page: Paper, plan: Plan) -> None:
         return
     page.heading("The flip")
     page.line(flip_drawing.instruction(plan))
-    size = 52.0
+    size = 52.0 if plan.coupon is None else 48.0  # a coupon has more set-ups above it
     bottom = page.y - size + 2
     for k, after in enumerate((False, True)):
         flip_drawing.draw(page.window(LEFT + 12 + 84 * k, bottom, 74, size), plan, after=after)

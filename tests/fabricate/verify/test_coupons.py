@@ -1,0 +1,29 @@
+"""Whatever is wrong on a coupon is found and named before it is cut."""
+
+from __future__ import annotations
+
+import pytest
+from coupons import coupon
+from fabricate.verify.corrupt_coupons import CORRUPTIONS
+
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.verify import verify
+
+
+@pytest.mark.parametrize("name", CORRUPTIONS)
+def test_a_corrupted_coupon_is_named(name: str) -> None:
+    change, code = CORRUPTIONS[name]
+    fold, plan = coupon()
+    wrong = change(plan)
+    assert wrong != plan
+    found = verify(wrong, fold.pattern, hpgl.write(wrong, fold))
+    codes = [finding.code for finding in found.findings if finding.severity == "error"]
+    assert code in codes, [str(finding) for finding in found.findings]
+
+
+def test_a_fold_that_poses_as_a_coupon_is_refused() -> None:
+    """A coupon's plan without its section is judged as a fold's: nothing on it belongs to one."""
+    fold, plan = coupon()
+    bare = plan.model_copy(update={"coupon": None})
+    found = verify(bare, fold.pattern, hpgl.write(bare, fold))
+    assert "no-such-line" in {finding.code for finding in found.findings}
