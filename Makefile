@@ -46,6 +46,7 @@ pictures: $(READY)
 	$(BIN)/python examples/gallery.py docs
 	$(BIN)/python examples/handbook.py docs
 	$(BIN)/python examples/registration.py docs
+	$(BIN)/python examples/coupon.py docs
 
 tools:
 	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb
