@@ -128,7 +128,7 @@ def _record(
         "files": [str(file) for file in files],
         "material": found.material and found.material.slug,
         "machine": found.machine and found.machine.slug,
-        "notes": list(found.notes),
+        "advice": list(found.advice),
     }
     say(as_json, data, "\n".join([*_lines(found), *(f"written: {file}" for file in files)]))
 
@@ -144,4 +144,4 @@ def _lines(found: Recorded) -> list[str]:
             f"machine {found.machine.slug}: scale {axes.scale_x:.5f}, {axes.scale_y:.5f}, skew "
             f"{axes.skew:.3f}°, a flipped sheet lies {off.dx:+.2f}, {off.dy:+.2f} mm off"
         )
-    return [*lines, *found.notes]
+    return [*lines, *found.advice]

@@ -33,7 +33,7 @@ class Recorded:
     """None where nothing was read of the material."""
     machine: Machine | None
     """None where nothing was read of the machine."""
-    notes: tuple[str, ...]
+    advice: tuple[str, ...]
     """Sentences on what to do next."""
 
 
@@ -85,7 +85,7 @@ def record(
     measured = _machine(plan, answers, off, machine, suffix)
     if tested is None and measured is None:
         raise InvalidInput("Nothing was answered: take away the # in front of what you have read.")
-    return Recorded(tested, measured, tuple(_notes(plan, chosen, tested, measured)))
+    return Recorded(tested, measured, tuple(_advice(plan, chosen, tested, measured)))
 
 
 def save(recorded: Recorded, force: bool) -> list[Path]:
@@ -241,7 +241,7 @@ def _checked(preset: P, update: dict[str, object]) -> P:
         raise InvalidInput(f"What was read cannot be: {explain(error)}") from None
 
 
-def _notes(
+def _advice(
     plan: Plan,
     chosen: dict[LadderKind, float],
     material: Material | None,

@@ -60,7 +60,7 @@ def test_the_best_rungs_become_a_tested_preset_that_says_where_it_comes_from() -
     assert (made.slug, made.relief_diameter, made.tested) == ("pp-0.75-mine", 2.5, True)
     assert made.sources["half-cut.exposure"] == "coupon read by A. Reader on 2026-05-04, 21 °C"
     assert made.sources["half-cut.speed"] == "estimate"
-    assert "make one more coupon" in found.notes[0]
+    assert "make one more coupon" in found.advice[0]
     assert found.machine is None
 
 
