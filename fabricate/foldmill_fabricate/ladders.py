@@ -67,7 +67,7 @@ class Bars(_Value):
     """Where A is."""
     width: float
     height: float
-    arm: float
+    reach: float
     """Half the size of a cross, mm."""
 
 

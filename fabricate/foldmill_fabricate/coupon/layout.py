@@ -136,7 +136,7 @@ def lay_out(
 def _bars(area: Box) -> Bars:
     left, low, right, high = area
     width, height = (float(10 * np.floor(s / 10)) for s in (right - left - 12, high - low - 18))
-    return Bars(at=(left + 5, low + 5), width=width, height=height, arm=ARM)
+    return Bars(at=(left + 5, low + 5), width=width, height=height, reach=ARM)
 
 
 def _bar_words(bars: Bars) -> Iterator[Words]:

@@ -94,7 +94,7 @@ def _vernier(vernier: Vernier, slits: bool) -> Iterator[Line]:
 
 def _bars(bars: Bars) -> Iterator[Line]:
     """Two long lines A-B and A-D, and crosses at their ends and at C."""
-    (x, y), arm = bars.at, bars.arm
+    (x, y), arm = bars.at, bars.reach
     right, top = x + bars.width, y + bars.height
     for a, b in (
         ((x - arm, y), (right + arm, y)),

@@ -60,7 +60,7 @@ def _across(vernier: Vernier, place: float, reach: float) -> tuple[Point, Point]
 def _crosses(coupon: Coupon) -> Iterator[tuple[str, Point, Point]]:
     """Yield the lines A-B and A-D, drawn out by an arm at both ends, and the crosses' others."""
     bars = coupon.bars
-    (x, y), w, h, r = bars.at, bars.width, bars.height, bars.arm
+    (x, y), w, h, r = bars.at, bars.width, bars.height, bars.reach
     yield "bar A-B", (x - r, y), (x + w + r, y)
     yield "bar A-D", (x, y - r), (x, y + h + r)
     yield "cross B", (x + w, y - r), (x + w, y + r)
