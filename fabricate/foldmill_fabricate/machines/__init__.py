@@ -81,7 +81,8 @@ class Tools(Preset):
     """Thickest sheet that passes under it."""
     max_force: GramForce | None = Field(None, gt=0)
     """None where no force is set: a laser has none."""
-    min_force: GramForce = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    min_force: GramForce = Field(0.0, ge=0)
+    """Least force that it can set."""
     force_unit: GramForce = Field(1.0, gt=0)
     """What one unit of the machine's own force setting is worth."""
     speed_unit: MmPerSecond = Field(10.0, gt=0)
