@@ -257,7 +257,7 @@ def _advice(
             f"{' and '.join(moved)} were each tried by themselves: make one more coupon of "
             f"{material.slug if material else plan.material.slug} to see them together."
         )
-    if machine is not None and machine.two_sides.measured:
+    if machine is not None and machine.two_sides.is_known:
         notes.append(
             "The offset of the two sides holds as long as the sheet is turned and laid in the same "
             "way, on the same place of the mat."
