@@ -13,8 +13,10 @@ from coupon_reader import Reader, lines_on
 
 from foldmill import Fold
 from foldmill_fabricate import shelf
+from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face, Plan, ProgramFile
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.sender import Status
@@ -22,7 +24,7 @@ from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.draw import svg
 from foldmill_fabricate.plotter.simulator.drawing import Imperfection
 from foldmill_fabricate.plotter.simulator.machine import Simulator
-from foldmill_fabricate.sending import Job, SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import Job, open_job
 from foldmill_fabricate.verify import verify
 
 OFF = Imperfection(scale_x=1.003, scale_y=1.003, flip_dx=0.35, flip_dy=-0.35)

@@ -12,7 +12,7 @@ from foldmill.errors import InvalidInput, UnreadableFile
 from foldmill.refusals import explain
 from foldmill_fabricate import presets, shelf
 from foldmill_fabricate.coupon.answers import NAME, Answers, plain
-from foldmill_fabricate.coupon.measured import Found, measure
+from foldmill_fabricate.coupon.readings import Found, measure
 from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.machines import Machine

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from foldmill.errors import InvalidInput
 from foldmill_fabricate.coupon.answers import Answers
-from foldmill_fabricate.coupon.measured import measure
+from foldmill_fabricate.coupon.readings import measure
 from foldmill_fabricate.ladders import Vernier
 from foldmill_fabricate.machines import Machine, TwoSides
 from foldmill_fabricate.passes import Plan
