@@ -34,7 +34,7 @@ def _second_page(plan: Plan, fold: Fold) -> Paper:
     if plan.coupon is None:
         return _folding_page(plan, fold)
     page = coupon_page(plan, plan.coupon, words.findings(plan))
-    _add_holes(page, plan)
+    _add_register(page, plan)
     return page
 
 
