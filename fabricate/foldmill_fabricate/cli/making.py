@@ -102,6 +102,12 @@ def plan(
     relief: Annotated[
         ReliefChoice, typer.Option(help="Which vertices get a hole in which grooves end.")
     ] = ReliefChoice.NONE,
+    copies: Annotated[
+        int, typer.Option(min=1, help="How many copies on the blank, in the grid that suits it.")
+    ] = 1,
+    grid: Annotated[
+        str | None, typer.Option(help="COLUMNSxROWS of copies, instead of --copies.")
+    ] = None,
     to: Annotated[
         str | None,
         typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
@@ -126,12 +132,15 @@ def plan(
         score=None if score is None else score.value,
         cut=None if outline is None else outline.value,
         relief=relief.value,
+        copies=copies,
+        grid=None if grid is None else counts(grid, "--grid"),
     )
     written = folder.write(fold, made, output, formats)
     programs = (
         "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
     )
-    say(as_json, written.model_dump(mode="json"), describe(written) + programs)
+    data = {**written.model_dump(mode="json"), "quantity": written.quantity}
+    say(as_json, data, describe(written) + programs)
     exit_code(written.findings)
 
 
@@ -193,6 +202,14 @@ def size(text: str, option: str) -> tuple[float, float]:
     return read
 
 
+def counts(text: str, option: str) -> tuple[int, int]:
+    """Read COLUMNSxROWS, both at least one."""
+    columns, _, rows = text.lower().replace("×", "x").partition("x")
+    if not (columns.isdecimal() and rows.isdecimal() and int(columns) and int(rows)):
+        raise FoldmillError(f"{option}: write COLUMNSxROWS, as 3x2; not {text!r}.")
+    return int(columns), int(rows)
+
+
 def describe(plan: Plan) -> str:
     """Return a short account of a plan: set-ups, figures, findings."""
     rows = [("SET-UP", "FACE", "BEFORE IT", "STROKES", "REPEATS")]
@@ -206,6 +223,7 @@ def describe(plan: Plan) -> str:
     bound = figures.travel_bound / 1000
     facts = {
         "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
+        **({"copies": str(plan.quantity)} if plan.quantity > 1 else {}),
         "turned by": f"{plan.placement.angle:g}°",
         "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
         "travel": f"{figures.travel / 1000:.2f} m, no order goes below {bound:.2f} m",

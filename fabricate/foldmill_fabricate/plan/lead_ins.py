@@ -7,6 +7,7 @@ can also be run by itself, or once more.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import XY, Pass, SetUp, Sheet
-from foldmill_fabricate.plan.registration import Registration
+from foldmill_fabricate.plan.registration import Registration, parts
 from foldmill_fabricate.toolpath.knife import lead_in
 
 Floats = NDArray[np.float64]
@@ -33,7 +34,7 @@ _CHUNK = 256
 
 def added(
     passes: tuple[Pass, ...],
-    part: Floats,
+    rims: Sequence[Floats],
     marks: Registration,
     sheet: Sheet,
     material: Material,
@@ -41,15 +42,16 @@ def added(
 ) -> tuple[Pass, ...]:
     """Give each set-up a lead-in where programs make up for the blade's offset.
 
-    part : its outline (n, 2) on the sheet, mm. A lead-in keeps the material's ``part_clearance``
-    and the offset away from the part, the blank's edges, the marks and other lead-ins, and lies as
-    near to the first stroke as that allows. Raises CannotPlan where there is no place.
+    rims : the parts' outlines (n, 2) on the sheet, mm. A lead-in keeps the material's
+    ``part_clearance`` and the offset away from the parts, the blank's edges, the marks and other
+    lead-ins, and lies as near to the first stroke as that allows. Raises CannotPlan where there is
+    no place.
     """
     offset = machine.tools.host_offset
     if not offset:
         return passes
     room = material.part_clearance + offset + _SPARE
-    free = _free(part, marks, sheet, room)
+    free = _free(parts(rims), marks, sheet, room)
     done = []
     for work in passes:
         setups = []
@@ -63,14 +65,14 @@ def added(
     return tuple(done)
 
 
-def _free(part: Floats, marks: Registration, sheet: Sheet, room: float) -> Any:
+def _free(part: Any, marks: Registration, sheet: Sheet, room: float) -> Any:
     """Return the area in which the holder may go."""
     import shapely
 
     blank = shapely.box(room, room, sheet.width - room, sheet.height - room)
     holes = [shapely.Point(h.x, h.y).buffer(h.diameter / 2 + room) for h in marks.holes]
     witness = [_line(stroke.points).buffer(room) for stroke in marks.witness]
-    taken = [shapely.Polygon(part).buffer(room), *holes, *witness]
+    taken = [part.buffer(room), *holes, *witness]
     return blank.difference(shapely.union_all(taken))
 
 

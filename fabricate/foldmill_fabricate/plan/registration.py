@@ -7,7 +7,9 @@ turned the wrong way shows it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,11 +42,12 @@ class Registration:
     findings: tuple[Finding, ...] = ()
 
 
-def register(part: Floats, sheet: Sheet, flip: Flip, material: Material) -> Registration:
-    """Find holes and witness mark in the waste around a part, its outline (n, 2) on the sheet."""
+def register(rims: Sequence[Floats], sheet: Sheet, flip: Flip, material: Material) -> Registration:
+    """Find holes and witness mark in the waste around the parts, outlines (n, 2) on the sheet."""
     holes = material.holes
     if not material.cut.goes_through:
         return Registration(findings=(_not_cut(material),))
+    part = parts(rims)
     radius = holes.diameter / 2
     room = (holes.edge_clearance + radius, holes.part_clearance + radius)
     spots = _grid(sheet)
@@ -62,19 +65,27 @@ def register(part: Floats, sheet: Sheet, flip: Flip, material: Material) -> Regi
     return Registration(found, witness, findings)
 
 
+def parts(rims: Sequence[Floats]) -> Any:
+    """Return the area of all parts, their outlines (n, 2) on the sheet."""
+    import shapely
+
+    shapes = [shapely.Polygon(rim) for rim in rims]
+    return shapes[0] if len(shapes) == 1 else shapely.union_all(shapes)
+
+
 def _grid(sheet: Sheet) -> Floats:
     x = np.arange(GRID / 2, sheet.width, GRID)
     y = np.arange(GRID / 2, sheet.height, GRID)
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
 
 
-def _is_free(spots: Floats, part: Floats, sheet: Sheet, edge: float, clearance: float) -> Flags:
-    """Tell which spots (n, 2) are that far from the blank's edge and from the part."""
+def _is_free(spots: Floats, part: Any, sheet: Sheet, edge: float, clearance: float) -> Flags:
+    """Tell which spots (n, 2) are that far from the blank's edge and from the parts."""
     import shapely
 
     size = np.array([sheet.width, sheet.height])
     inside = np.asarray(((spots >= edge) & (spots <= size - edge)).all(axis=1), bool)
-    taken = shapely.Polygon(part).buffer(clearance)
+    taken = part.buffer(clearance)
     shapely.prepare(taken)
     outside: Flags = ~shapely.contains_xy(taken, *spots.T)
     return inside & outside
@@ -116,11 +127,11 @@ def _not_cut(material: Material) -> Finding:
     )
 
 
-def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
+def _no_room(part: Any, sheet: Sheet, holes: Holes) -> Finding:
     import shapely
 
     blank = shapely.box(0, 0, sheet.width, sheet.height)
-    free = blank.difference(shapely.Polygon(part))
+    free = blank.difference(part)
     widest = shapely.maximum_inscribed_circle(free).length if not free.is_empty else 0.0
     need = holes.diameter / 2 + max(holes.part_clearance, holes.edge_clearance)
     short = f"{need - widest:.1f} mm short" if widest < need else "not in two different pairs"
@@ -135,7 +146,7 @@ def _no_room(part: Floats, sheet: Sheet, holes: Holes) -> Finding:
 
 
 def _witness(
-    part: Floats, sheet: Sheet, holes: tuple[Hole, ...]
+    part: Any, sheet: Sheet, holes: tuple[Hole, ...]
 ) -> tuple[tuple[Stroke, ...], tuple[Finding, ...]]:
     """Place the F near the upper left corner, where it is clear of everything."""
     size = WITNESS.reshape(-1, 2).max(axis=0)
