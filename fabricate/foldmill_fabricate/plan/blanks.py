@@ -5,7 +5,7 @@ Smallest is the least area; no side of it can be a millimetre shorter.
 
 from __future__ import annotations
 
-from math import ceil
+from math import ceil, floor
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plan.grids import Block
@@ -49,10 +49,11 @@ def advice(block: Block, blank: Size, carrier: Size, machine: Machine) -> str:
             f"The smallest blank that {what} is {_words(there)}, on a larger carrier "
             f"(--carrier {larger[0]:g}x{larger[1]:g})"
         )
-    any_size = smallest(block, like=blank)
+    any_size = smallest(block, like=blank) or _ENDLESS
+    width, height = (floor(side * 10) / 10 for side in room(machine, bed))
     return (
-        f"The smallest blank that {what} is {_words(any_size or _ENDLESS)}, and {machine.slug} "
-        f"takes {_words(room(machine, bed))} at the most: take another machine"
+        f"The smallest blank that {what} is {_words(any_size)}, and {machine.slug} takes "
+        f"{_words((width, height))} at the most: take another machine"
     )
 
 

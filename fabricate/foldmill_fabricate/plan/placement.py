@@ -21,11 +21,11 @@ def lay_blank(
     machine: Machine,
     blank: tuple[float, float],
     carrier: tuple[float, float],
-    block: Block | None = None,
+    block: Block,
 ) -> Sheet:
-    """Centre the blank between the carrier's margins.
+    """Centre the blank between the carrier's margins; block : what it is to hold.
 
-    Raises DoesNotFit with the missing millimetres and, of a block, the smallest blank that works.
+    Raises DoesNotFit with the missing millimetres and the smallest blank that works.
     """
     (width, height), (across, along) = blank, carrier
     bed = machine.bed
@@ -37,11 +37,11 @@ def lay_blank(
         ("blank and the margins are", height + lead + trail, along),
     ):
         if need > room:
-            works = "" if block is None else f" {blanks.advice(block, blank, carrier, machine)}."
+            take = "" if name.startswith("blank") else "Take a smaller carrier. "
             raise DoesNotFit(
                 f"The {name} {need:g} mm, but {machine.slug} has {room:g} mm there: "
-                f"{need - room:g} mm too much. Take a smaller {name.split()[0]} or another "
-                f"machine.{works}"
+                f"{need - room:g} mm too much. {take}"
+                f"{blanks.advice(block, blank, carrier, machine)}."
             )
     return Sheet(
         width=width,

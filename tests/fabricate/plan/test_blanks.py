@@ -103,7 +103,7 @@ def test_a_part_no_blank_of_this_machine_holds_is_said_to_need_another_machine()
     said = refusal(square("MVMV", 700), stools.machine())
     assert "another machine" in said
     assert named(said) == (702.0, 702.0)
-    assert "takes 580 × 799.175 mm at the most" in said
+    assert "takes 580 × 799.1 mm at the most" in said
 
 
 def test_the_roll_is_told_by_its_carrier_only_where_the_mat_is_too_short() -> None:
