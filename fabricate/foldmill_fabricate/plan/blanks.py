@@ -9,6 +9,7 @@ from math import ceil, floor
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plan.grids import Block
+from foldmill_fabricate.plan.lead_ins import strip
 
 Size = tuple[float, float]
 """Width and height, mm."""
@@ -32,13 +33,20 @@ def smallest(block: Block, most: Size = _ENDLESS, like: Size = (1.0, 1.0)) -> Si
 
 
 def advice(block: Block, blank: Size, carrier: Size, machine: Machine) -> str:
-    """Return which blank would work, on this carrier or on a larger one; without a full stop."""
+    """Return which blank would work, on this carrier or on a larger one; without a full stop.
+
+    Where programs lead a blade in the waste there must be some on every side: then the blank that
+    is named works, and may not be the smallest.
+    """
     bed = reach(machine)
-    here = smallest(block, room(machine, (min(carrier[0], bed[0]), min(carrier[1], bed[1]))), blank)
+    more = 2 * strip(block.clearance, machine)
+    most = room(machine, (min(carrier[0], bed[0]), min(carrier[1], bed[1])))
+    here = _with_waste(block, most, blank, more)
     what = "works" if block.count == 1 else f"works for {block.count}"
+    what = f"A blank that {what} is" if more else f"The smallest blank that {what} is"
     if here is not None:
-        return f"The smallest blank that {what} is {_words(here)}"
-    there = smallest(block, room(machine, bed), blank)
+        return f"{what} {_words(here)}"
+    there = _with_waste(block, room(machine, bed), blank, more)
     if there is not None:
         left, lead, right, trail = machine.bed.margins
         larger = (
@@ -46,15 +54,20 @@ def advice(block: Block, blank: Size, carrier: Size, machine: Machine) -> str:
             max(there[1] + lead + trail, min(carrier[1], bed[1])),
         )
         return (
-            f"The smallest blank that {what} is {_words(there)}, on a larger carrier "
-            f"(--carrier {larger[0]:g}x{larger[1]:g})"
+            f"{what} {_words(there)}, on a larger carrier (--carrier {larger[0]:g}x{larger[1]:g})"
         )
-    any_size = smallest(block, like=blank) or _ENDLESS
+    any_size = _with_waste(block, _ENDLESS, blank, more) or _ENDLESS
     width, height = (floor(side * 10) / 10 for side in room(machine, bed))
     return (
-        f"The smallest blank that {what} is {_words(any_size)}, and {machine.slug} takes "
+        f"{what} {_words(any_size)}, and {machine.slug} takes "
         f"{_words((width, height))} at the most: take another machine"
     )
+
+
+def _with_waste(block: Block, most: Size, like: Size, more: float) -> Size | None:
+    """Return the smallest blank with so much more waste in all, across and along; None for none."""
+    found = smallest(block, (most[0] - more, most[1] - more), like)
+    return None if found is None else (_up(found[0] + more), _up(found[1] + more))
 
 
 def room(machine: Machine, carrier: Size) -> Size:

@@ -58,7 +58,8 @@ def added(
         for setup in work.setups:
             way = _place(setup, free, sheet, offset)
             if way is None:
-                raise CannotPlan(_no_place(setup, room, machine))
+                clear = material.part_clearance
+                raise CannotPlan(_no_place(setup, room, clear, sheet, machine))
             free = free.difference(_line(way).buffer(room + offset))
             setups.append(setup.model_copy(update={"lead_in": way}))
         done.append(work.model_copy(update={"setups": tuple(setups)}))
@@ -101,10 +102,27 @@ def _place(setup: SetUp, free: Any, sheet: Sheet, offset: float) -> tuple[XY, ..
     return None
 
 
-def _no_place(setup: SetUp, room: float, machine: Machine) -> str:
-    leg = float(np.abs(lead_in((0.0, 0.0), machine.tools.host_offset, 0.0)).max())
+def strip(clearance: float, machine: Machine) -> float:
+    """Return how much broader the waste on every side must be to hold any lead-in, mm.
+
+    clearance : what there is already between part and edge, mm. 0 where none is needed.
+    """
+    offset = machine.tools.host_offset
+    if not offset:
+        return 0.0
+    return 2 * (clearance + offset + _SPARE) + _leg(offset) + GRID - clearance
+
+
+def _leg(offset: float) -> float:
+    return float(np.abs(lead_in((0.0, 0.0), offset, 0.0)).max())
+
+
+def _no_place(setup: SetUp, room: float, clearance: float, sheet: Sheet, machine: Machine) -> str:
+    more = 2 * strip(clearance, machine)
+    width, height = (np.ceil((side + more) * 10) / 10 for side in (sheet.width, sheet.height))
     return (
         f"There is no place in the waste for the lead-in of set-up {setup.number} "
-        f'"{setup.name}": two legs of {leg:g} mm with {room:.2f} mm of room round them. Take a '
-        f"larger blank, or let {machine.slug} make up for its blade's offset itself."
+        f'"{setup.name}": two legs of {_leg(machine.tools.host_offset):g} mm with {room:.2f} mm of '
+        f"room round them. A blank of {width:g} × {height:g} mm has room for it; or let "
+        f"{machine.slug} make up for its blade's offset itself."
     )

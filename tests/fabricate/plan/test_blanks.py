@@ -12,7 +12,7 @@ from fabricate.plan.test_make import square
 
 from foldmill import Fold
 from foldmill_fabricate import shelf
-from foldmill_fabricate.errors import DoesNotFit
+from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Sheet
@@ -113,3 +113,19 @@ def test_the_roll_is_told_by_its_carrier_only_where_the_mat_is_too_short() -> No
     six = refusal(square("MVMV", 250), stools.machine(), copies=6, blank=(500, 500))
     assert named(six) == (503.0, 754.0)
     assert CARRIER.search(six)
+
+
+@pytest.mark.parametrize("copies", [1, 3])
+def test_where_blades_are_led_in_the_waste_the_named_blank_has_some(copies: int) -> None:
+    machine = shelf.machine("generic-hpgl-drag-knife")
+    fold, material = square("MFMF", 90), stools.material()
+    said = refusal(fold, machine, copies=copies, blank=(80, 80))
+    found = re.search(r"A blank that works(?: for 3)? is ([\d.]+) × ([\d.]+) mm", said)
+    assert found
+    blank = float(found[1]), float(found[2])
+    assert make(fold, material, machine, copies=copies, blank=blank).quantity == copies
+    with pytest.raises(CannotPlan, match="no place in the waste") as caught:
+        make(fold, material, machine, grid=(1, 1), blank=(92, 92))
+    larger = re.search(r"A blank of ([\d.]+) × ([\d.]+) mm has room", str(caught.value))
+    assert larger
+    assert make(fold, material, machine, blank=(float(larger[1]), float(larger[2])))
