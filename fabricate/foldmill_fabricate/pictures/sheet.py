@@ -77,7 +77,7 @@ def strokes(plan: Plan, role: Role, face: Face | None = None) -> list[Floats]:
 
 
 def copies(plan: Plan) -> list[tuple[int, tuple[float, float]]]:
-    """Return the number of each copy and the middle of its box, mm; none where there is one."""
+    """Return the number of each copy and a place beside its middle, mm; none where there is one."""
     corners: dict[int, list[tuple[float, float]]] = {}
     for work in plan.passes:
         for stroke in (s for setup in work.setups for op in setup.operations for s in op.strokes):
@@ -86,7 +86,7 @@ def copies(plan: Plan) -> list[tuple[int, tuple[float, float]]]:
     found = []
     for number, points in sorted(corners.items()):
         low, high = np.min(points, axis=0), np.max(points, axis=0)
-        x, y = ((low + high) / 2).tolist()
+        x, y = (low + (high - low) * (0.42, 0.58)).tolist()
         found.append((number, (x, y)))
     return found
 
