@@ -118,11 +118,11 @@ def test_an_svg_states_its_size_in_mm_and_needs_no_transform(view: str) -> None:
 def test_layer_labels_name_role_pen_speed_and_force_in_order_of_work() -> None:
     labels = re.findall(rb'inkscape:label="([^"]*)"', SVG["master.svg"])
     assert labels == [
-        b"REG Pen 1 Speed 8 Force 500",
+        b"REG Pen 1 Speed 8 Force 300",
         b"SCORE_FRONT Pen 2 Speed 12 Force 240",
         b"SCORE_BACK Pen 2 Speed 12 Force 240",
-        b"CUT_INNER Pen 4 Speed 8 Force 500",
-        b"CUT_OUTER Pen 4 Speed 8 Force 500",
+        b"CUT_INNER Pen 4 Speed 8 Force 300",
+        b"CUT_OUTER Pen 4 Speed 8 Force 300",
         b"ANCHOR",
         b"NOTE",
     ]
