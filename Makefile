@@ -5,12 +5,13 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test lint check-types unit tools goldens pictures clean help
+.PHONY: demo test lint check-types unit soak tools goldens pictures clean help
 help:
 	@echo "make demo     the stool, end to end, into out/stool/"
 	@echo "make test     format, lint, types, import rules and all tests"
 	@echo "make tools    the independent readers hp2xx and LibreCAD (Debian, as root)"
 	@echo "make pictures draw docs/gallery.md, the table of materials and machines, and their pictures anew"
+	@echo "make soak     the long suites whole; PART=name for one; figures go to benchmarks/soak.md"
 	@echo "make goldens  rewrite the golden files after a wanted change"
 
 $(READY): pyproject.toml constraints.txt
@@ -34,12 +35,17 @@ check-types: $(READY)
 unit: $(READY)
 	$(BIN)/python -m pytest -n auto $(PYTEST_ARGS)
 
+PART ?= soak or fuzz
+soak: $(READY)
+	$(BIN)/python -m pytest -n 0 --soak -k "$(PART)" $(PYTEST_ARGS)
+
 goldens: $(READY)
 	$(BIN)/python -m pytest -n 0 --update-goldens $(PYTEST_ARGS)
 
 pictures: $(READY)
 	$(BIN)/python examples/gallery.py docs
 	$(BIN)/python examples/handbook.py docs
+	$(BIN)/python examples/registration.py docs
 
 tools:
 	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb

@@ -46,7 +46,7 @@ import numpy as np  # noqa: E402
 from foldmill.axisymmetric.rows import Rows  # noqa: E402
 from foldmill.configurations import one_by_one, outcomes, with_values  # noqa: E402
 from foldmill.kernels import Limits, Strips, columns, is_compiling, strips  # noqa: E402
-from foldmill.kernels.tables import judge_with  # noqa: E402
+from foldmill.kernels.judging import judge_with  # noqa: E402
 from foldmill_plugins.six_crease import DESIGN, solve  # noqa: E402
 from foldmill_plugins.six_crease.batch import prepare  # noqa: E402
 from foldmill_plugins.six_crease.params import SixCreaseParams  # noqa: E402
@@ -55,8 +55,8 @@ ROUNDS = 5
 ROWS = int(sys.argv[1]) if len(sys.argv) > 1 else 200_000
 FIRST = """
 import time
-import foldmill.kernels.tables
-foldmill.kernels.tables.COMPILED_FROM = 0
+import foldmill.kernels.judging
+foldmill.kernels.judging.COMPILED_FROM = 0
 began = time.process_time()
 from foldmill.configurations import outcomes
 from foldmill_plugins.six_crease import DESIGN

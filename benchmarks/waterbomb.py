@@ -2,7 +2,7 @@
 
     python benchmarks/waterbomb.py [FILE.md] [LARGE]
 
-Writes the tables into FILE.md (default docs/waterbomb-tables.md) and prints the lines about speed.
+Writes all tables into FILE.md (default docs/waterbomb-tables.md), those about speed at its end.
 LARGE (default 6400) is the largest number of bases that is timed; 50000 takes minutes. Columns:
 
 plain       the thesis' own problem: uniform base mesh, boundary fixed, first and last ring slid
@@ -10,8 +10,6 @@ plain       the thesis' own problem: uniform base mesh, boundary fixed, first an
 defaults    the preset as a user gets it
 d           mean distance of the vertices from the target over its diagonal, by projection
 iterations  Gauss-Newton steps to 1e-10 degrees (thesis: 1e-5)
-floor       assembly, J Jᵀ and one factorisation: what each step costs at least
-dense       Levenberg-Marquardt with a dense Jacobian, written here
 fit         the preset with fit.on: closer to the target, within bounds on folds and slivers
 reverse     mean distance of places of the target from the form, over that without the fit: of the
             preset (first), of the thesis' own problem (second)
@@ -21,33 +19,26 @@ folds flat  share of inner vertices that fold flat by themselves with their moun
 
 from __future__ import annotations
 
-import resource
 import sys
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from waterbomb_speed import PLAIN, best, section, solved
 
 from foldmill import Fold
 from foldmill_plugins.waterbomb import DESIGN
-from foldmill_plugins.waterbomb.build import E_TOTAL, Build
+from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.closeness import measures
 from foldmill_plugins.waterbomb.crimp import foldability
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.hinge import Creases
-from foldmill_plugins.waterbomb.linear import Factorised
 from foldmill_plugins.waterbomb.params import WaterbombParams
-from foldmill_plugins.waterbomb.solve import Developed, develop, e_total
+from foldmill_plugins.waterbomb.solve import Developed
 
 Floats = NDArray[np.float64]
-
-ROUNDS = 3
-PLAIN = {"start": "uniform", "boundary": "fixed", "rim": "outside"}
-DENSE_STEPS = 60
 
 
 @dataclass(frozen=True)
@@ -78,21 +69,6 @@ ROWS = (
 GOALS = (0.70, 0.75, 0.45, 0.65, 0.85, 0.45, 0.40)
 """d after a fit as a share of the thesis' own, row by row of Table 6.3, that a fit must reach."""
 FITTED = ROWS[4:]
-
-
-def best(run: Callable[[], Any], rounds: int = ROUNDS) -> tuple[float, Any]:
-    """Return the shortest time in seconds, and what the last run gave."""
-    times = []
-    for _ in range(rounds):
-        start = time.perf_counter()
-        found = run()
-        times.append(time.perf_counter() - start)
-    return min(times), found
-
-
-def solved(params: WaterbombParams) -> Developed:
-    """Make start and base mesh, and search."""
-    return Build(params).developed
 
 
 def distance(params: WaterbombParams, found: Developed) -> float:
@@ -204,76 +180,6 @@ def _foldable(row: Row, params: WaterbombParams) -> str:
     )
 
 
-def floor(build: Build) -> float:
-    """Return the seconds of assembly, J Jᵀ and a factorisation with its solution."""
-
-    def once() -> None:
-        residual, jacobian = build.stars.linearised(build.base)
-        gram = (jacobian @ jacobian.T).tocsc()
-        Factorised().solve(gram, 1e-13 * float(gram.diagonal().mean()), residual)
-
-    return best(once)[0]
-
-
-def dense(build: Build) -> tuple[float, int]:
-    """Solve by Levenberg-Marquardt with a dense Jacobian; return seconds and steps."""
-    start, points, damping = time.perf_counter(), build.base, 1e-3
-    residual, jacobian = build.stars.linearised(points)
-    for step in range(DENSE_STEPS):
-        if e_total(residual) <= E_TOTAL:
-            return time.perf_counter() - start, step
-        full = jacobian.toarray()
-        moves = np.linalg.solve(full.T @ full + damping * np.eye(full.shape[1]), full.T @ residual)
-        trial = build.stars.moved(points, -moves)
-        after = build.stars.residual(trial)
-        if after @ after < residual @ residual:
-            points, damping = trial, max(damping / 10, 1e-15)
-            residual, jacobian = build.stars.linearised(points)
-        else:
-            damping *= 10
-    return time.perf_counter() - start, DENSE_STEPS
-
-
-def peers() -> None:
-    """Print the search beside its floor and beside the dense one, for small tessellations."""
-    print(f"\n{'':24}{'solve ms':>10}{'floor ms':>10}{'floors':>8}{'dense ms':>10}{'times':>8}")
-    for name in ("catenoid-8x6", "catenoid", "sphere", "torus"):
-        plain = DESIGN.presets[name].model_copy(update=PLAIN)
-        build = Build(plain)
-        build.base, build.stars.centre  # noqa: B018 - made before the clock runs
-        quick, _ = best(lambda build=build: develop(build.stars, build.base, E_TOTAL, 40))  # type: ignore[misc]
-        least, (slow, steps) = floor(build), dense(build)
-        print(
-            f"{name:24}{1e3 * quick:10.1f}{1e3 * least:10.1f}{quick / least:8.1f}"
-            f"{1e3 * slow:10.0f}{slow / quick:8.0f}   ({steps} dense steps)"
-        )
-
-
-SIZES = {
-    "hyperbolic-paraboloid": [(10, 10), (20, 20), (40, 40), (80, 80), (160, 160), (224, 224)],
-    "torus": [(55, 10), (110, 20), (220, 48), (500, 100)],
-}
-
-
-def growth(largest: int) -> None:
-    """Print how the search grows with the bases, without and with symmetry to help."""
-    print(f"\n{'':32}{'bases':>8}{'solve s':>9}{'it':>4}{'exponent':>10}{'MB so far':>11}")
-    for kind, sizes in SIZES.items():
-        before: tuple[int, float] | None = None
-        for n_u, n_v in [each for each in sizes if each[0] * each[1] <= 1.01 * largest]:
-            bases = n_u * n_v
-            params = DESIGN.validate({"surface": {"kind": kind}, "n_u": n_u, "n_v": n_v})
-            rounds = 1 if bases > 2000 else ROUNDS
-            seconds, found = best(lambda params=params: solved(params), rounds)  # type: ignore[misc]
-            slope = np.log(seconds / before[1]) / np.log(bases / before[0]) if before else None
-            before = (bases, seconds)
-            used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
-            print(
-                f"{kind + f' {n_u} × {n_v}':32}{bases:8}{seconds:9.2f}{found.iterations:4}"
-                f"{'' if slope is None else f'{slope:.2f}':>10}{used:11.0f}"
-            )
-
-
 PAGE = """# Waterbomb tessellations beside the thesis
 
 Made by `python benchmarks/waterbomb.py`. *plain* is the thesis' own problem: a uniform base mesh,
@@ -313,16 +219,12 @@ steps of the fit not taken because of that, after which the two facets are kept 
 
 
 def main(page: Path, largest: int) -> None:
-    """Write the tables, print the speed."""
+    """Write the tables, and show them."""
     text, total = table()
-    fits, folds = fit_table(), foldable_table()
-    page.write_text(
-        PAGE + text + "\n" + FIT + fits + "\n" + FOLDABLE + folds + "\n", encoding="utf-8"
-    )
-    print(text, fits, folds, sep="\n\n")
-    print(f"\nall rows of Table 6.3 are solved in {total:.2f} s; {page}")
-    peers()
-    growth(largest)
+    whole = "\n".join([PAGE + text, FIT + fit_table(), FOLDABLE + foldable_table()])
+    whole += "\n" + section(total, largest)
+    page.write_text(whole, encoding="utf-8")
+    print(whole, page, sep="\n")
 
 
 if __name__ == "__main__":

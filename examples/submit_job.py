@@ -3,9 +3,11 @@
 import sys
 from pathlib import Path
 
+from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.draw import draw
-from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import open_job
 
 # A real machine: "/dev/ttyUSB0" or "socket://host:port", and an operator who loads and flips.
 URL = "sim://workshop?machine=generic-hpgl-pens"

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from soaking import Soak
 
 # No test is timed, on whatever machine it runs; and a test that fails, fails for everybody.
 settings.register_profile("foldmill", deadline=None, derandomize=True)
@@ -16,11 +17,23 @@ settings.load_profile("foldmill")
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-goldens", action="store_true", help="rewrite golden files")
+    parser.addoption("--soak", action="store_true", help="run long suites whole")
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _own_ledger(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Keep what tests send out of the ledger of whoever runs them."""
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.mktemp("state"))
 
 
 @pytest.fixture
 def golden(request: pytest.FixtureRequest) -> Golden:
     return Golden(bool(request.config.getoption("--update-goldens")))
+
+
+@pytest.fixture
+def soak(request: pytest.FixtureRequest) -> Soak:
+    return Soak(bool(request.config.getoption("--soak")))
 
 
 class Golden:

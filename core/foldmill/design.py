@@ -99,8 +99,9 @@ class Fold:
     handles: tuple[Handle, ...] = ()
     """Points that a person can drag."""
     meta: Mapping[str, Any] = field(default_factory=dict)
-    """Facts for people and files: ``design`` (slug, version, params), ``title``, foreign keys;
-    ``read`` where it comes from a file."""
+    """Facts for people and files: ``design`` (slug, version, params), ``designed`` (what its family
+    says of the result: name → number, text or truth value, which travels with the file and is told
+    by ``check``), ``title``, foreign keys; ``read`` where it comes from a file."""
     findings: tuple[Finding, ...] = ()
     """What only the family can know is wrong with it; ``check`` tells it with its own."""
 

@@ -176,8 +176,10 @@ def _models() -> Iterator[tuple[str, type[BaseModel]]]:
         yield f"Process {name}", made
     yield "Holes", materials.Holes
     yield "Machine", Machine
-    for part in ("Bed", "Axes", "Tools", "Dialect", "Motion", "Serial", "Marks", "Files"):
-        yield f"Machine: {part.lower()}", getattr(machines, part)
+    for name, field in Machine.model_fields.items():
+        part = field.annotation
+        if isinstance(part, type) and issubclass(part, BaseModel):
+            yield f"Machine: {name.replace('_', ' ')}", part
 
 
 def _field_rows(model: type[BaseModel]) -> Iterator[str]:

@@ -41,6 +41,8 @@ class Role(StrEnum):
 
     HOLE = "hole"
     """registration hole, cut through"""
+    MARK = "mark"
+    """registration mark that the machine's own sensor finds, cut through"""
     WITNESS = "witness"
     """mark that tells a flipped sheet from one that was not flipped; scored"""
     SCORE = "score"
@@ -172,6 +174,70 @@ class Hole(_Value):
     diameter: float
 
 
+class Mark(_Value):
+    """A mark that a machine's own sensor looks for on the reverse: a window in the sheet."""
+
+    shape: Literal["square", "ell"]
+    x: float
+    """Its outer corner, from which machines count distances, mm."""
+    y: float
+    across: Literal[-1, 1]
+    """Whether it lies to the right (1) or to the left (-1) of that corner, seen from the front."""
+    upward: Literal[-1, 1]
+    """Whether it lies above (1) or below (-1) that corner."""
+    size: float
+    """Side of the square, or length of the arms, mm."""
+    width: float
+    """Of the arms, mm; of a square its side."""
+
+
+class Stop(_Value):
+    """A stop on the carrier that an edge of the blank is pushed against."""
+
+    face: Face
+    """The face that is up then."""
+    edge: Literal["left", "right", "bottom", "top"]
+    """Which edge of the blank it is, as the blank lies then."""
+    x: float
+    """Where it touches, carrier coordinates, mm."""
+    y: float
+
+
+RegistrationKind = Literal["holes", "l-marks", "edge", "pins", "none"]
+
+
+class Register(_Value):
+    """By what the reverse is brought into register with the front; holes stand in the plan."""
+
+    kind: RegistrationKind = "holes"
+    marks: tuple[Mark, ...] = ()
+    stops: tuple[Stop, ...] = ()
+    pins: tuple[XY, ...] = ()
+    """Where pins stand on the carrier when the reverse is up, mm."""
+
+
+class Share(_Value):
+    """What one cause adds to the error between both faces."""
+
+    name: str
+    error: float
+    """mm, plus or minus."""
+    because: str
+    """How it comes about, for people."""
+
+
+class Budget(_Value):
+    """How far the reverse may land from the front, at the point where it is worst."""
+
+    shares: tuple[Share, ...]
+    likely: float
+    """mm; the shares are independent: the root of the sum of their squares."""
+    worst: float
+    """mm; all of them at once in one direction: their sum."""
+    limit: float
+    """mm; half the sheet's thickness."""
+
+
 class Tie(_Value):
     """A bridge left in the outline; its middle and its width along the cut."""
 
@@ -235,6 +301,12 @@ class Plan(_Value):
     unassigned: Literal["front", "reverse", "skip"] | None = None
     """On which face U creases are scored; None where there are none."""
     holes: tuple[Hole, ...]
+    """Registration holes; with pins, those that go over them."""
+    registration: Register = Register()
+    temperatures: tuple[float, float] | None = None
+    """°C, of the sheet at the front pass and at the reverse pass; None where not known yet."""
+    budget: Budget | None = None
+    """None where the sheet is not turned over."""
     ties: tuple[Tie, ...]
     reliefs: tuple[Hole, ...] = ()
     """Holes at vertices."""

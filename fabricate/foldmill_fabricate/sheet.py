@@ -10,6 +10,10 @@ from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
 Floats = NDArray[np.float64]
 
 
+NOMINAL = Fit(angle=0.0, dx=0.0, dy=0.0)
+"""A flipped sheet that lies where it ought to, whatever its machine has stored."""
+
+
 def turned(points: ArrayLike, degrees: float) -> Floats:
     """Turn points (n, 2) about the origin, counter-clockwise."""
     angle = np.radians(degrees)
@@ -38,12 +42,29 @@ def on_carrier(points: ArrayLike, sheet: Sheet) -> Floats:
     return moved
 
 
+def laid_off(points: ArrayLike, plan: Plan) -> Floats:
+    """Move points (n, 2) of the flipped sheet, mm, to where this machine is known to find them.
+
+    Nothing moves where the offset was measured with the other flip, nor where the machine's own
+    sensor finds the sheet.
+    """
+    off = plan.machine.two_sides
+    if off.flip != plan.flip.kind or plan.registration.kind == "l-marks":
+        return np.asarray(points, float)
+    moved: Floats = turned(points, off.angle) + np.array([off.dx, off.dy])
+    return moved
+
+
 def seen_by_machine(plan: Plan, face: Face, points: ArrayLike, fit: Fit | None = None) -> Floats:
-    """Return where the machine finds sheet points (n, 2) of a pass: carrier coordinates, mm."""
-    seen = np.asarray(points, float)
-    if face is Face.REVERSE:
-        seen = flipped(seen, plan.flip)
-    seen = on_carrier(seen, plan.sheet)
-    if fit is not None and face is Face.REVERSE:
-        seen = turned(seen, fit.angle) + np.array([fit.dx, fit.dy])
-    return seen
+    """Return where the machine finds sheet points (n, 2) of a pass: carrier coordinates, mm.
+
+    fit : how this very sheet was found to lie; without it the reverse lies as the machine's stored
+    offset of the two sides says.
+    """
+    if face is Face.FRONT:
+        return on_carrier(points, plan.sheet)
+    seen = flipped(points, plan.flip)
+    if fit is None:
+        return on_carrier(laid_off(seen, plan), plan.sheet)
+    found: Floats = turned(on_carrier(seen, plan.sheet), fit.angle) + np.array([fit.dx, fit.dy])
+    return found

@@ -12,11 +12,13 @@ from stools import ONE_TOOL, PENS, machine, material, stool, stool_plan
 
 from foldmill import Assignment
 from foldmill_fabricate import folder
+from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.sheet import placed
 
 if TYPE_CHECKING:

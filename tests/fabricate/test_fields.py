@@ -14,11 +14,13 @@ from pydantic import BaseModel
 
 from foldmill.finding import has_errors
 from foldmill_fabricate import folder, jobsheet, shelf
+from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.formats import hpgl, svg
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.presets import Preset
-from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.sheet import seen_by_machine
 from foldmill_fabricate.verify import verify
 
@@ -37,6 +39,8 @@ JOBS: list[tuple[str, str, str | None, str | None]] = [
 ]
 
 
+REGISTERS = {("pp-0.5", "silhouette-like"): "l-marks", ("pp-0.8", "flatbed-wheel-knife"): "pins"}
+"""Jobs that are not registered by holes."""
 SHOWN = ("Sourced", "sources")
 """What `foldmill materials --show` and `machines --show` tell of every field."""
 
@@ -84,6 +88,8 @@ def work(into: Path, material: str, machine: str, score: str | None, cut: str | 
     fold, used = square("MVMV", 90), shelf.machine(machine)
     whole = (material, machine) == ("pp-0.75", "generic-hpgl-600")
     options: dict[str, object] = {"score": score, "cut": cut}
+    options["register"] = REGISTERS.get((material, machine), "holes")
+    options["temperatures"] = (20.0, 22.0)
     if machine != "grbl-laser":  # there the material's own blank
         options |= {"blank": (200, 200), "relief": "all" if whole else "none"}
     plan = make(fold, shelf.material(material), used, **options)  # type: ignore[arg-type]

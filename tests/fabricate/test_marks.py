@@ -43,7 +43,7 @@ def test_a_sheet_that_was_turned_the_wrong_way_is_refused() -> None:
     plan = stool_plan()
     wrong = plan.flip.model_copy(update={"kind": "end-over-end"})
     seen = flipped([(h.x, h.y) for h in plan.holes], wrong) + np.array([50.0, 50.0])
-    with pytest.raises(CannotSend):
+    with pytest.raises(CannotSend, match="turned over the wrong way"):
         fit_marks(plan, as_marks(seen))
 
 

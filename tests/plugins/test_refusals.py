@@ -97,6 +97,10 @@ ON_LINES: dict[str, Refusal] = {
         lines(p3={"a": 92, "branch": 2}),
         "points.3.branch must be -1 or 1, not 2.",
     ),
+    "no branch": (
+        lines(p3={"a": 92, "branch": 0}),
+        "points.3.branch must be -1 or 1, not 0.",
+    ),
     "gamma missing": (
         {"n": 6, "phi": 90, "points": INNER},
         (

@@ -84,28 +84,13 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"n": 2}, r"n must be at least 3, not 2"),
         ({"n": 73}, "n must be at most 72"),
-        ({"n": 6.5}, "n must be a whole number"),
         ({"n": True}, "n must be a whole number"),
-        ({"phi": -0.1}, "phi must be at least 0"),
-        ({"phi": 180.1}, "phi must be at most 180"),
-        ({"phi": float("nan")}, "phi must be"),
-        ({"phi": float("inf")}, "phi must be"),
-        ({"points": {1: {"a": 40}}}, "points: a facet needs points 1 and 2 beside the centre"),
         ({"points": FOUR | {9: {"a": 5}}}, r"numbered 1, 2, 3 …, not \[1, 2, 3, 4, 9\]\.$"),
         ({"points": [40, 62]}, r"points must be a table of names and values, not \[40, 62\]"),
         ({"points": {}}, "points: a facet needs points 1 and 2 beside the centre"),
         ({"points": {1: {"a": 40}, 3: {"a": 60}}}, "points: the points must be numbered 1, 2, 3"),
-        ({"points": FOUR | {2: {"a": 0}}}, r"points\.2\.a must be more than 0"),
-        ({"points": FOUR | {2: {"a": -62}}}, r"points\.2\.a must be more than 0"),
-        ({"points": FOUR | {2: {"a": float("nan")}}}, r"points\.2\.a must be a finite"),
-        ({"points": FOUR | {2: {"a": 62, "branch": 0}}}, r"points\.2\.branch must be -1 or 1"),
         ({"points": FOUR | {2: {"r": 62, "z": 3}}}, r"points\.2\.a is missing"),
-        (
-            {"points": FOUR | {3: {"a": 40}}},
-            "Point 3 must lie farther out than point 1: a = 40 mm, but point 1 is at 40 mm",
-        ),
         ({"points": FOUR | {4: {"a": 1e200}}}, r"points\.4\.a must be less than 100000"),
         (
             {"points": FOUR | {1: {"a": 1e-9}}},
@@ -122,11 +107,6 @@ FOUR: dict[int, dict[str, Any]] = {1: {"a": 40}, 2: {"a": 62}, 3: {"a": 92}, 4: 
         (
             {"points": {i: {"a": 10.0 * i} for i in range(1, 202)}},
             "points: a half wedge takes 200 points at most, not 201; leave out some",
-        ),
-        ({"points": FOUR | {4: {"a": 61}}}, "Point 4 must lie farther out than point 2"),
-        (
-            {"n": 6, "phi": 90, "points": FOUR | {2: {"a": 40 / np.cos(np.pi / 6)}}},
-            r"Point 3 can turn freely about point 1 .* points\.3\.gamma, in degrees",
         ),
     ],
 )

@@ -9,6 +9,7 @@ import pytest
 import shapely
 from six_crease_oracle import random_design
 from stools import ONE_TOOL, machine, material
+from tubes import FACES, SHAPES, WHOLE, closed_by, space
 
 from foldmill import Assignment, Fold, ImpossibleGeometry, InvalidParameters
 from foldmill.check import assignment, check, developability, isometry, planarity
@@ -16,21 +17,12 @@ from foldmill.check.intersection import penetrations
 from foldmill_fabricate.plan import make
 from foldmill_plugins.six_crease import DESIGN
 
-SHAPES = pytest.mark.parametrize("name", DESIGN.presets)
 CHOICES = pytest.mark.parametrize(("width", "taper"), [(2, 0), (3, 30), (4, 60), (9.5, 10)])
 RULES = (planarity, developability, isometry, assignment)
-WHOLE, FACES = 94, 140
-"""Vertices and facets of a tube of ten wedges and nine points without an overlap."""
 
 
 def overlapped(name: str, width: float, taper: float = 30, **values: Any) -> Fold:
-    stated = {"tab": width, "taper": taper, "seam": "overlap", **values}
-    return DESIGN.run(DESIGN.preset(name).model_dump() | stated)
-
-
-def space(fold: Fold) -> np.ndarray:
-    assert fold.folded is not None
-    return fold.folded.vertices
+    return closed_by("overlap", name, width, taper, **values)
 
 
 @SHAPES

@@ -7,25 +7,17 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
+from tubes import FACES, SHAPES, WHOLE, closed_by, space
 
 from foldmill import Assignment, Fold
 from foldmill.check import check
 from foldmill.check.intersection import penetrations
-from foldmill_plugins.six_crease import DESIGN
 
-SHAPES = pytest.mark.parametrize("name", DESIGN.presets)
 CHOICES = pytest.mark.parametrize(("width", "taper"), [(2, 0), (3, 30), (1.2, 75), (5, 45)])
-WHOLE = 94
-"""Vertices of a tube of ten wedges and nine points without tabs."""
 
 
 def with_tabs(name: str, width: float, taper: float = 30) -> Fold:
-    return DESIGN.run(DESIGN.preset(name).model_copy(update={"tab": width, "taper": taper}))
-
-
-def space(fold: Fold) -> np.ndarray:
-    assert fold.folded is not None
-    return fold.folded.vertices
+    return closed_by("tabs", name, width, taper)
 
 
 @SHAPES
@@ -49,10 +41,10 @@ def test_a_tab_lies_upon_the_facet_across_the_seam_and_inside_it(
     vertices, faces = space(fold), fold.pattern.faces
     assert fold.folded is not None
     partner = dict(fold.folded.seams[:, ::-1].tolist())
-    for tab in (140, 142, 144):
+    for tab in (FACES, FACES + 2, FACES + 4):
         corners = sorted({*faces[tab].tolist(), *faces[tab + 1].tolist()})
         ends = {partner[vertex] for vertex in corners if vertex in partner}
-        land = next(face for face in faces[:140].tolist() if ends <= set(face))
+        land = next(face for face in faces[:FACES].tolist() if ends <= set(face))
         a, b, c = vertices[land]
         for spot in vertices[[vertex for vertex in corners if vertex >= WHOLE]]:
             shares, off = np.linalg.lstsq(np.column_stack([b - a, c - a]), spot - a)[:2]
@@ -66,7 +58,7 @@ def test_a_tab_has_the_width_and_the_taper_it_was_given(taper: float) -> None:
     outline = fold.pattern.vertices[WHOLE:]
     border = np.abs(fold.pattern.vertices[:WHOLE, 0]).max()
     assert np.abs(np.abs(outline[:, 0]) - border) == pytest.approx(np.full(6, 2.0))
-    corners = fold.pattern.vertices[fold.pattern.faces[140:]].reshape(3, 6, 2)
+    corners = fold.pattern.vertices[fold.pattern.faces[FACES:]].reshape(3, 6, 2)
     for six, (low, high) in zip(corners, outline.reshape(3, 2, 2), strict=True):
         on_seam = six[np.isclose(np.abs(six[:, 0]), border), 1]
         leans = np.degrees(np.arctan2([low[1] - on_seam.min(), on_seam.max() - high[1]], 2.0))

@@ -222,20 +222,10 @@ def test_wherever_the_gap_is_wide_enough_some_corner_reaches_all_three_points() 
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"n": 2}, r"n must be at least 3, not 2"),
-        ({"n": 8.5}, "n must be a whole number"),
         ({"n": "eight"}, "n must be a whole number"),
-        ({"phi": 181}, r"phi must be at most 180 deg, not 181"),
-        ({"phi": -1}, "phi must be at least 0"),
-        ({"phi": float("nan")}, "phi must be"),
-        (changed(p3={"a": 0}), r"points\.3\.a must be more than 0"),
-        (changed(p3={"a": 172, "gamma": float("inf")}), r"points\.3\.gamma must be a finite"),
-        (changed(p5={"a": 265, "branch": 0}), r"points\.5\.branch must be -1 or 1"),
         (changed(p4={"r": 90}), r"points\.4\.z is missing"),
-        (changed(p3={"a": 172.48}), r"points\.3\.gamma, in degrees"),
         (changed(p1={"r": 110, "z": 0}), "Point 1 lies on its line"),
         (changed(p8={"a": 300}), r"points: the points must be numbered 1, 2, 3"),
-        (changed([{"point": 4, "side": 0}]), r"tucks\.0\.side must be -1 or 1"),
         (changed([{"point": 4}, {"point": 4}]), "Two tucks name the same point"),
         (changed([{"point": 5}]), "There is no blank beside point 5, so it needs no tuck"),
         (changed([{"point": 4, "t": -3}]), r"tucks\.0\.t must be more than 0"),
@@ -251,24 +241,10 @@ def test_parameters_that_contradict_each_other_are_refused(
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        (changed(p4={"r": 202.6, "z": -28.7}), r"Point 4 crosses .* by 59\.13 mm"),
-        (changed(p4={"r": 135.7, "z": -111.2}), r"Point 6 has no place: .*24\.5 mm too few"),
         (changed(p4={"r": 44.9, "z": -15.9}), r"gap beside point 4 is too short: .*0\.82 mm too"),
-        (
-            changed([{"point": 4, "t": 300}]),
-            r"t = 300 mm, off its segment: give it a value between 119\.063 and 238\.7 mm",
-        ),
-        (
-            changed([{"point": 4, "t": 120}]),
-            r"has no place in space at t = 120 mm: .* between 122\.605 and 236\.726 mm",
-        ),
         (
             changed([{"point": 4, "t": 125}]),
             r"penetrates the form at t = 125 mm; between 131\.\d* and 236\.\d* mm it is free",
-        ),
-        (
-            changed(p4={"r": 96.2, "z": -64}, p5={"a": 297.2}, p6={"a": 273.1, "branch": -1}),
-            r"penetrates the form wherever its corner lies between t = 131\.818 and 247\.505 mm",
         ),
         (
             changed(

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from waterbomb_targets import BALL, ROUND
 
 from foldmill import ImpossibleGeometry, InvalidParameters
 from foldmill_fabricate.cli.parameters import gather
@@ -19,8 +20,6 @@ from foldmill_plugins.waterbomb.expression_surface import ExpressionSurface
 from foldmill_plugins.waterbomb.surfaces import TABLE
 from foldmill_plugins.waterbomb.taylor import FUNCTIONS
 
-ROUND = {"u_start": 0, "u_end": "2*pi", "u_closes": True}
-BALL = {"x": "cos(v)*cos(u)", "y": "cos(v)*sin(u)", "z": "sin(v)", **ROUND}
 TUBE = {"x": "cos(u)", "y": "sin(u)", "z": "v", **ROUND}
 RING = {"x": "(3+cos(v))*cos(u)", "y": "(3+cos(v))*sin(u)", "z": "sin(v)", **ROUND}
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from command import Run
+from waterbomb_targets import BALL, HELICOID, NARROW, PLAIN, ROUND, flat
 
 import foldmill
 from foldmill.registry import load
@@ -56,24 +57,6 @@ def words(**values: object) -> list[str]:
     return [word for name, value in named.items() for word in (f"--{name}", str(value))]
 
 
-ROUND = {"u_start": 0, "u_end": "2*pi", "u_closes": "true"}
-PLAIN = {"start": "uniform", "boundary": "fixed", "rim": "outside"}
-CATENOID = {"kind": "catenoid", "n_u": 8, "n_v": 12, **PLAIN}
-HELICOID = {
-    "kind": "expression",
-    "x": "v*cos(u)",
-    "y": "v*sin(u)",
-    "z": "0.2*u",
-    "u_start": 0,
-    "u_end": "4*pi",
-    "v_start": 0.3,
-    "v_end": 1,
-    "n_u": 60,
-    "n_v": 6,
-    "start": "uniform",
-    "depth": 0.5,
-    "slide": 0.25,
-}
 R = "(2 + cos(u/2)*sin(v) - sin(u/2)*sin(2*v))"
 KLEIN = {
     "kind": "expression",
@@ -88,15 +71,14 @@ KLEIN = {
     "n_v": 12,
 }
 BUMP = {"kind": "expression", "x": "u", "y": "v", "z": "1.2*exp(-6*(u**2+v**2))"}
-BALL = {"kind": "expression", "x": "cos(v)*cos(u)", "y": "cos(v)*sin(u)", "z": "sin(v)", **ROUND}
 FLAT = {"kind": "expression", "x": "u", "y": "v", "z": "0"}
 
 
 @pytest.mark.parametrize(
     ("values", "codes"),
     [
-        (CATENOID, {"penetration"}),
-        (HELICOID, {"flat-overlap", "edges-cross", "outline"}),
+        (flat(NARROW), {"penetration"}),
+        (flat(HELICOID), {"flat-overlap", "edges-cross", "outline"}),
         (KLEIN, {"penetration", "crease-sign"}),
         ({**KLEIN, **PLAIN}, {"penetration", "crease-sign"}),
         ({"kind": "torus", "n_u": 55, "n_v": 10, "depth": 0.2}, {"crease-sign"}),
@@ -143,6 +125,8 @@ def test_a_form_with_a_fault_is_written_only_by_force_and_then_marked(
         ({"slide": 0.5}, "the two mids of a base meet"),
         ({"slide": 0.7}, "the two mids of a base meet"),
         ({"depth": 1.5}, "depth must be at most 1"),
+        ({"kind": "moebius", "start": "closed-form"}, "closed-form needs a surface of revolution"),
+        ({"kind": "teapot"}, "surface"),
         # Poles, tips, curves, points.
         ({**BALL, "v_start": "-pi/2", "v_end": "pi/2"}, "v = -1.5708 the target shrinks"),
         ({**BALL, "v_start": 0, "v_end": "pi/2", "rim": "outside"}, "the target shrinks"),

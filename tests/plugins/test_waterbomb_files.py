@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,12 @@ from PIL import Image
 
 from foldmill import FoldmillError, ImpossibleGeometry, InvalidParameters
 from foldmill.exchange import fold as fold_file
+from foldmill.files import fenced
 from foldmill_plugins.waterbomb import DESIGN
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.disk import Disk
 from foldmill_plugins.waterbomb.height_field import averaged
+from foldmill_plugins.waterbomb.mesh_surface import MOST_FACES, promised
 from foldmill_plugins.waterbomb.patch import patch
 
 Y, X = np.mgrid[1:-1:61j, -1:1:81j]
@@ -121,10 +124,23 @@ def test_a_file_that_changes_behind_its_parameters_is_told(tmp_path: Path) -> No
         DESIGN.run(asked)
 
 
+def npy(shape: tuple[int, ...], kind: str) -> bytes:
+    """Return the head of an array file that promises more than follows."""
+    file = BytesIO()
+    head = {"descr": kind, "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(file, head)
+    return file.getvalue() + b"1234"
+
+
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("a.png", b"no picture", r"no \.png file .*it is no picture"),
+        ("a.png", b"no picture", r"no \.png file .*it is no PNG picture"),
+        ("a.png", b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n", "it is no PNG picture"),
+        ("a.npy", npy((10**6, 10**6), "<f8"), "does not hold the numbers that it says it holds"),
+        ("a.npy", npy((2, 2), "|O"), "does not hold the numbers that it says it holds"),
+        ("a.csv", b"1," * 1_000_001, "one of its lines has more than 2000000 characters"),
+        ("a.csv", (b"1," * 500_000 + b"1\n") * 9, "more than 4 million numbers"),
         ("a.npy", b"\x93NUMPY", r"no \.npy file"),
         ("a.npy", b"cos\nsystem\n(S'true'\ntR.", r"no \.npy file"),
         ("a.csv", b"1,2,3,4\n1,2\n", "rows have 2 to 4 numbers"),
@@ -143,6 +159,34 @@ def test_a_file_without_a_field_of_heights_is_refused(
     (tmp_path / name).write_bytes(content)
     with pytest.raises(ImpossibleGeometry, match=said):
         DESIGN.run(params("height-field", tmp_path / name))
+
+
+def test_a_picture_with_too_many_pixels_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
+    Image.new("1", (5000, 4001)).save(tmp_path / "a.png")
+    assert (tmp_path / "a.png").stat().st_size < 10_000
+    with pytest.raises(ImpossibleGeometry, match="more than 20 million pixels"):
+        DESIGN.run(params("height-field", tmp_path / "a.png"))
+
+
+def test_parameters_from_strangers_name_no_file_but_those_they_may(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("FOLDMILL_FILES", raising=False)
+    own = tmp_path / "own"
+    own.mkdir()
+    asked = params("height-field", saved(tmp_path, ".npy"))
+    np.save(own / "hill.npy", HILL)
+    with fenced(own):
+        assert DESIGN.run(params("height-field", Path("hill.npy"))).folded is not None
+        for kind in ("height-field", "mesh"):
+            with pytest.raises(InvalidParameters, match="outside the folder"):
+                params(kind, tmp_path / "hill.npy")
+        with pytest.raises(ImpossibleGeometry, match="outside the folder"):
+            asked.surface.content()
+    with fenced(None):
+        with pytest.raises(InvalidParameters, match="may not name files here"):
+            params("mesh", Path("hill.npy"))
+        assert DESIGN.run(DESIGN.presets["catenoid-8x6"]).folded is not None
 
 
 def test_values_that_name_no_file_are_refused(tmp_path: Path) -> None:
@@ -326,6 +370,31 @@ def spikes() -> tuple[np.ndarray, np.ndarray]:
 SHAPES = {
     each.__name__: each for each in (ball, hole, two, fin, strip, bow, handle, coarse, spikes)
 }
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".off"])
+def test_a_mesh_promises_about_as_many_triangles_as_it_has(suffix: str, tmp_path: Path) -> None:
+    file = export(tmp_path / f"saddle{suffix}", *grid(31, saddle))
+    assert 0.4 * 1800 < promised(file.read_bytes(), suffix) <= 1800
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.obj", b"v 0 0 0\n" + b"f 1 2 3\n" * (MOST_FACES + 1)),
+        ("a.obj", b"v 0 0 0\nf" + b" 1" * 10 * (MOST_FACES + 1)),
+        ("a.stl", b"\0" * (84 + 50 * (MOST_FACES + 1))),
+        ("a.stl", b"solid x\n" + b"endfacet\n" * (MOST_FACES + 1)),
+        ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 3\nelement face 999999999999\n"),
+        ("a.off", b"OFF\n999999999 1 0\n"),
+    ],
+)
+def test_a_mesh_with_too_many_triangles_is_refused_unread(
+    name: str, content: bytes, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ImpossibleGeometry, match="triangles or more; take at most 200000"):
+        DESIGN.run(params("mesh", tmp_path / name))
 
 
 @pytest.mark.parametrize(

@@ -55,6 +55,21 @@ def test_kept_factors_solve_a_like_system(monkeypatch: pytest.MonkeyPatch) -> No
     assert len(made) == 1
 
 
+@pytest.mark.parametrize("name", ["torus", "hyperbolic-paraboloid"])
+def test_a_search_ends_in_the_same_form_with_either_solver(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("qdldl")
+    monkeypatch.setattr(linear, "MANY", 0)
+    forms = []
+    for most in (0, 30_000):
+        monkeypatch.setattr(linear, "MOST_QDLDL", most)
+        found = Build(PRESETS[name]).developed
+        assert found.is_converged
+        forms.append(found.points)
+    assert np.abs(forms[0] - forms[1]).max() < 1e-6 * np.ptp(forms[0])
+
+
 @pytest.mark.parametrize("name", ["torus", "moebius", "vase"])
 def test_all_lengths_are_kept_whether_factors_or_rounds_refine_them(
     name: str, monkeypatch: pytest.MonkeyPatch

@@ -2,45 +2,30 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
+from stools import ONE_TOOL, machine, material
+from waterbomb_targets import HELICOID as STAIRS
+from waterbomb_targets import NARROW
 
 from foldmill import Assignment, Fold, ImpossibleGeometry, InvalidParameters
 from foldmill.check import check
 from foldmill.finding import Severity
-from foldmill_fabricate import folder
-from foldmill_fabricate.builtin import foldmill_machines, foldmill_materials
+from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.plan import make
-from foldmill_fabricate.verify import verify_folder
+from foldmill_fabricate.verify import verify
 from foldmill_plugins.waterbomb import DESIGN
 from foldmill_plugins.waterbomb.piece_params import Pieces
 from foldmill_plugins.waterbomb.pieces import Made, Whole, divided, made, piece
 from foldmill_plugins.waterbomb.topology import Topology
 
-HELICOID = {
-    "surface": {
-        "kind": "expression",
-        "x": "v*cos(u)",
-        "y": "v*sin(u)",
-        "z": "0.2*u",
-        "u_start": 0,
-        "u_end": "4*pi",
-        "v_start": 0.3,
-        "v_end": 1,
-    },
-    "n_u": 60,
-    "n_v": 6,
-    "start": "uniform",
-    "size": 800.0,
-}
+HELICOID = {**STAIRS, "size": 800.0}
 SADDLE = {"surface": {"kind": "hyperbolic-paraboloid"}, "n_u": 6, "n_v": 5}
 TUBE = {"surface": {"kind": "catenoid"}, "n_u": 8, "n_v": 5}
 TORUS = {"surface": {"kind": "torus"}, "n_u": 40, "n_v": 10, "size": 1600.0}
-PLAIN = {"start": "uniform", "boundary": "fixed", "rim": "outside"}
 CUTS = pytest.mark.parametrize(
     ("form", "columns", "rows"), [(SADDLE, 2, 3), (TUBE, 1, 2), (TUBE, 3, 2), (TORUS, 2, 1)]
 )
@@ -183,7 +168,7 @@ def test_notches_of_a_seam_are_as_many_as_its_number_and_face_each_other(
 def test_a_sheet_that_lies_upon_itself_becomes_pieces_that_do_not() -> None:
     whole = DESIGN.run(HELICOID)
     assert whole.meta["status"]["verdicts"] == ["flat-overlap"]
-    assert any("Cut it into pieces" in each for each in errors(whole))
+    assert any("Cut it into pieces by --pieces.auto true" in each for each in errors(whole))
     for part in all_of(HELICOID, 2, 1, tabs=4):
         assert errors(part) == []
         assert part.meta["status"]["verdicts"] == ["ok"]
@@ -191,9 +176,40 @@ def test_a_sheet_that_lies_upon_itself_becomes_pieces_that_do_not() -> None:
         assert outline(part).area == pytest.approx(area(part))
 
 
+def test_a_sheet_that_lies_upon_itself_is_cut_by_itself_into_as_few_pieces_as_it_takes() -> None:
+    fold, graph = DESIGN.run(HELICOID), Topology(60, 6)
+    found = divided(Whole(fold, graph, graph.origin), Pieces(auto=True, tabs=4))
+    assert found.count > 1
+    for count in range(1, found.count):
+        for columns in [n for n in range(1, count + 1) if count % n == 0 and count // n <= 6]:
+            fewer = made(
+                Whole(fold, graph, graph.origin), Pieces(notch=0), columns, count // columns
+            )
+            assert not all(map(fewer.is_simple, range(count)))
+    for n in range(1, found.count + 1):
+        part = DESIGN.run({**HELICOID, "pieces": {"auto": True, "tabs": 4, "piece": n}})
+        assert errors(part) == []
+        assert part.meta["designed"]["verdict"] == "ok"
+        assert part.meta["designed"]["piece"] == f"{n} of {found.count}"
+        assert outline(part).is_valid
+
+
+def test_more_pieces_than_it_takes_are_kept_where_they_are_asked_for() -> None:
+    wanted = {"auto": True, "columns": 3, "rows": 2}
+    assert DESIGN.run({**HELICOID, "pieces": wanted}).meta["pieces"]["of"] == 6
+
+
+@pytest.mark.parametrize("form", [SADDLE, TUBE])
+def test_a_sheet_that_does_not_lie_upon_itself_is_left_as_it_is(form: dict[str, Any]) -> None:
+    plain, auto = DESIGN.run(form), DESIGN.run({**form, "pieces": {"auto": True}})
+    assert np.array_equal(plain.pattern.vertices, auto.pattern.vertices)
+    assert {k: v for k, v in plain.meta.items() if k != "design"} == {
+        k: v for k, v in auto.meta.items() if k != "design"
+    }
+
+
 def test_what_is_wrong_with_the_whole_is_told_of_each_piece() -> None:
-    form = {"surface": {"kind": "catenoid"}, "n_u": 8, "n_v": 12, **PLAIN}
-    for part in all_of(form, 2, 1, notch=0):
+    for part in all_of(NARROW, 2, 1, notch=0):
         assert "self-intersecting" in part.meta["status"]["verdicts"]
         assert any("Put together, the form passes through itself" in each for each in errors(part))
 
@@ -254,15 +270,14 @@ def test_pieces_that_cannot_be_are_refused_in_a_sentence(pieces: dict[str, Any],
 
 
 def test_one_sheet_without_tabs_is_the_design_as_it_was() -> None:
-    assert Pieces().is_whole
+    assert Pieces().is_whole(is_simple=True)
+    assert Pieces().is_whole(is_simple=False)
     assert "pieces" not in DESIGN.run(SADDLE).meta
 
 
-def test_a_piece_goes_through_plan_and_verify(tmp_path: Path) -> None:
+def test_a_piece_goes_through_plan_and_verify() -> None:
     fold = DESIGN.run(
         {**SADDLE, "size": 500.0, "pieces": {"columns": 2, "rows": 2, "tabs": 6, "piece": 3}}
     )
-    material = {each.slug: each for each in foldmill_materials()}["pp-0.75"]
-    machine = {each.slug: each for each in foldmill_machines()}["generic-hpgl-600"]
-    folder.write(fold, make(fold, material, machine), tmp_path / "job", ["hpgl"])
-    assert verify_folder(tmp_path / "job").ok
+    plan = make(fold, material(), machine(ONE_TOOL))
+    assert verify(plan, fold.pattern, hpgl.write(plan, fold)).ok

@@ -35,5 +35,10 @@ __all__ = [
 
 
 def check(fold: Fold) -> Report:
-    """Return what all rules say of a fold, and after them what its own family found."""
-    return Report.joined([*(rule(fold) for rule in RULES), Report(fold.findings)])
+    """Return what all rules say of a fold, and after them what its own family found.
+
+    Figures that begin with ``designed_`` are what the family said when the fold was made; a file
+    brings them along, and nothing here has looked at them.
+    """
+    said = Report(figures={f"designed_{k}": v for k, v in fold.meta.get("designed", {}).items()})
+    return Report.joined([*(rule(fold) for rule in RULES), Report(fold.findings), said])

@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.check.intersection import cut_lengths, lengths_inside
+from foldmill.check.triangles import cut_lengths, lengths_inside
 from foldmill.folded import face_normals
 from foldmill.planar import edge_faces, face_sides
 

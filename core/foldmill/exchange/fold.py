@@ -28,7 +28,7 @@ from foldmill.exchange import cuts, frames, json_text
 from foldmill.exchange.elements import array, coordinates
 from foldmill.exchange.graph import Graph, middle, of_polygons, of_triangles
 from foldmill.exchange.json_text import Frame, plain
-from foldmill.exchange.keys import ADDED, DESIGN, POLYGON, SEAMS, SYMMETRY
+from foldmill.exchange.keys import ADDED, DESIGN, DESIGNED, POLYGON, SEAMS, SYMMETRY
 from foldmill.exchange.sheet import Sheet, read_sheet, scale
 from foldmill.folded import FoldedForm
 from foldmill.pattern import Floats
@@ -68,7 +68,16 @@ def _read(data: Frame) -> Fold:
         meta["title"] = frame["file_title"]
     if isinstance(frame.get(DESIGN), dict):
         meta["design"] = kept["frame"].pop(DESIGN)
+    if _is_said(frame.get(DESIGNED)):
+        meta["designed"] = kept["frame"].pop(DESIGNED)
     return Fold(sheet.pattern, folded, _symmetry(frame, sheet), meta=meta)
+
+
+def _is_said(stated: Any) -> bool:
+    """Tell whether a value is names with plain values, as a family says of its result."""
+    return isinstance(stated, dict) and all(
+        isinstance(value, str | int | float) for value in stated.values()
+    )
 
 
 def _kept(other: Frame, sheet: Sheet, pattern: Frame) -> Frame:
@@ -185,7 +194,8 @@ def _places(vertices: Floats, graph: Graph) -> list[list[float]]:
 
 
 def _about(fold: Fold) -> Frame:
-    about: Frame = {DESIGN: fold.meta["design"]} if "design" in fold.meta else {}
+    known = {DESIGN: fold.meta.get("design"), DESIGNED: fold.meta.get("designed")}
+    about: Frame = {key: value for key, value in known.items() if value is not None}
     if fold.symmetry is not None:
         about[SYMMETRY] = {
             "order": fold.symmetry.order,

@@ -8,6 +8,7 @@ numba it runs compiled (``strips``), without it over columns (``columns``); both
 from __future__ import annotations
 
 from foldmill.kernels.jit import SWITCH, is_compiling
-from foldmill.kernels.tables import CODES, Limits, Strips, Verdicts, judge
+from foldmill.kernels.judging import judge
+from foldmill.kernels.tables import CODES, Limits, Strips, Verdicts
 
 __all__ = ["CODES", "SWITCH", "Limits", "Strips", "Verdicts", "is_compiling", "judge"]

@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.check.intersection import cut_lengths
+from foldmill.check.triangles import cut_lengths
 from foldmill.kernels.tables import CODES, stretch
 
 Floats = NDArray[np.float64]

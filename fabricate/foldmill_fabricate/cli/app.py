@@ -20,6 +20,7 @@ from foldmill_fabricate.cli import (
     moving,
     running,
     searching,
+    sheets,
 )
 
 app = typer.Typer(
@@ -38,6 +39,7 @@ exploring.add_to(app)
 searching.add_to(app)
 making.add_to(app)
 running.add_to(app)
+sheets.add_to(app)
 
 
 def main() -> None:

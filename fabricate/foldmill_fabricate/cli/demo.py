@@ -12,13 +12,15 @@ from foldmill.finding import has_errors
 from foldmill_fabricate import folder, pictures
 from foldmill_fabricate.cli.designing import save
 from foldmill_fabricate.cli.making import describe, presets
+from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.files import write_whole
+from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.draw import draw
-from foldmill_fabricate.sending import SimulatedOperator, open_job, send_job
+from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.verify import report, verify_folder
 
 Say = Callable[[str], None]

@@ -50,6 +50,16 @@ class ReliefChoice(StrEnum):
     ALL = "all"
 
 
+class RegistrationChoice(StrEnum):
+    """What keeps the reverse in register with the front."""
+
+    HOLES = "holes"
+    L_MARKS = "l-marks"
+    EDGE = "edge"
+    PINS = "pins"
+    NONE = "none"
+
+
 class ProcessChoice(StrEnum):
     """How a line is made."""
 
@@ -108,6 +118,14 @@ def plan(
     grid: Annotated[
         str | None, typer.Option(help="COLUMNSxROWS of copies, instead of --copies.")
     ] = None,
+    registration: Annotated[
+        RegistrationChoice,
+        typer.Option(help="What keeps the faces in register; the machine must be able to."),
+    ] = RegistrationChoice.HOLES,
+    temperature: Annotated[
+        str | None,
+        typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24."),
+    ] = None,
     to: Annotated[
         str | None,
         typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
@@ -134,6 +152,8 @@ def plan(
         relief=relief.value,
         copies=copies,
         grid=None if grid is None else counts(grid, "--grid"),
+        register=registration.value,
+        temperatures=None if temperature is None else temperatures(temperature),
     )
     written = folder.write(fold, made, output, formats)
     programs = (
@@ -208,6 +228,20 @@ def counts(text: str, option: str) -> tuple[int, int]:
     if not (columns.isdecimal() and rows.isdecimal() and int(columns) and int(rows)):
         raise FoldmillError(f"{option}: write COLUMNSxROWS, as 3x2; not {text!r}.")
     return int(columns), int(rows)
+
+
+def temperatures(text: str) -> tuple[float, float]:
+    """Read FRONT,REVERSE in °C."""
+    front, _, reverse = text.partition(",")
+    try:
+        read = float(front), float(reverse)
+    except ValueError:
+        raise FoldmillError(
+            f"--temperature: write FRONT,REVERSE in °C, as 21,24; not {text!r}."
+        ) from None
+    if not all(-50 <= each <= 150 for each in read):
+        raise FoldmillError(f"--temperature: a sheet has -50 to 150 °C, not {text!r}.")
+    return read
 
 
 def describe(plan: Plan) -> str:

@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.making import Folder
+from foldmill_fabricate.cli.making import Folder, temperatures
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile, SetUp
+    from foldmill_fabricate.delivering import Sent
+    from foldmill_fabricate.passes import Plan, ProgramFile
     from foldmill_fabricate.plotter.sender import Progress
-    from foldmill_fabricate.sending import Job, Operator
+    from foldmill_fabricate.sending import Job
 
 
 class PassChoice(StrEnum):
@@ -47,6 +48,25 @@ def send(
         str,
         typer.Option(help="Where holes are seen after the flip: x1,y1;x2,y2;… in mm on the mat."),
     ] = "",
+    sheet: Annotated[
+        str, typer.Option(help="The id of the sheet to go on with; new for another one.")
+    ] = "",
+    go_on: Annotated[
+        str, typer.Option(help="Where a program in doubt goes on: STROKE, or STROKE.VERTEX.")
+    ] = "",
+    finished: Annotated[
+        bool, typer.Option("--finished", help="The program in doubt is cut whole.")
+    ] = False,
+    overlap: Annotated[
+        float, typer.Option(min=0, max=20, help="mm of a through-cut that are cut again.")
+    ] = 0.0,
+    witness: Annotated[
+        str,
+        typer.Option(help="Where the F is seen after the flip, on top or through: x,y in mm."),
+    ] = "",
+    temperature: Annotated[
+        str | None, typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24.")
+    ] = None,
     yes: Annotated[
         bool, typer.Option("--yes", help="Answer every prompt; on simulators only.")
     ] = False,
@@ -59,34 +79,69 @@ def send(
 
     A software stop (Ctrl-C) is no emergency stop: keep a hand near the machine's own.
     """
+    from foldmill_fabricate.cli.person import operator, read_word
+    from foldmill_fabricate.delivering import send_job
     from foldmill_fabricate.passes import Face
-    from foldmill_fabricate.sending import goes_on, open_job, send_job
+    from foldmill_fabricate.plotter.ledger import State
+    from foldmill_fabricate.sending import open_job
 
     if draw is not None and not port.startswith("sim://"):
         raise FoldmillError("--draw shows what a sim:// plotter cut; a real one shows it itself.")
     if draw is not None and draw.exists() and not draw.is_dir():
         raise FoldmillError(f"--draw: {draw} is a file; name a folder for the pictures.")
-    job = open_job(path, read_marks(marks))
+    word = read_word(go_on, finished, overlap)
+    job = open_job(path, read_marks(marks), _one(read_marks(witness)))
     _refuse_another_machine(port, job)
     faces = [Face(only.value)] if only else list(Face)
     if job.fit:
         typer.echo(f"The reverse is fitted to the marks: {job.fit}", err=as_json)
-    done = []
+    _tell_budget(job.plan, temperature, as_json)
+    done: list[Sent] = []
     bar = ProgressLine(as_json)
     with stopping_on_signals():
-        for sent in send_job(job, port, _operator(port, yes), faces, bar.tell):
+        hands = operator(port, yes, word)
+        for sent in send_job(job, port, hands, faces, bar.tell, sheet=sheet):
+            if not done:
+                bar.end(f"Sheet {sent.sheet}")
             done.append(sent)
             told = f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}"
             bar.end(told.rstrip())
     if draw is not None:
         _draw(port, draw, as_json)
     if as_json:
-        say(True, [{"program": s.program.name, "delivery": vars(s.delivery)} for s in done], "")
-    if not all(goes_on(sent.delivery, job.plan.machine) for sent in done):
+        rows = [
+            {
+                "sheet": sent.sheet,
+                "program": sent.program.name,
+                "state": sent.state.value,
+                "delivery": vars(sent.delivery),
+            }
+            for sent in done
+        ]
+        say(True, rows, "")
+    if not all(sent.state is State.DONE for sent in done):
         typer.echo(
             "The job is not finished; look at the sheet before anything is cut again.", err=True
         )
         raise typer.Exit(1)
+
+
+def _one(read: list[tuple[float, float]]) -> tuple[float, float] | None:
+    if len(read) > 1:
+        raise FoldmillError("--witness takes one place: the middle of the F.")
+    return read[0] if read else None
+
+
+def _tell_budget(plan: Plan, temperature: str | None, as_json: bool) -> None:
+    """Say how far the faces may be apart where the sheet's temperatures were given."""
+    from foldmill_fabricate.plan import budget
+
+    if temperature is None:
+        return
+    warm = plan.model_copy(update={"temperatures": temperatures(temperature)})
+    found = budget.reckon(warm)
+    if found is not None:
+        typer.echo(budget.sentence(found), err=as_json)
 
 
 @contextmanager
@@ -110,31 +165,53 @@ def simulate(
         str, typer.Option(help="A slug of `foldmill machines`.")
     ] = "generic-hpgl-600",
     pty: Annotated[
-        Path | None, typer.Option(help="Offer a serial port, with this symbolic link to it.")
+        list[str] | None,
+        typer.Option(help="Offer a serial port, with this symbolic link to it; repeatable."),
     ] = None,
     tcp: Annotated[
-        int | None, typer.Option(min=1, max=65535, help="Offer a TCP port of this number.")
+        list[str] | None, typer.Option(help="Offer a TCP port of this number; repeatable.")
+    ] = None,
+    rfc2217: Annotated[
+        list[str] | None,
+        typer.Option(help="Offer a network serial port of this number; repeatable."),
     ] = None,
     draw: Annotated[Path | None, typer.Option(help="A folder for front and reverse.")] = None,
     speed_up: Annotated[float, typer.Option(help="How many times faster than the machine.")] = 1.0,
     buffer: Annotated[int | None, typer.Option(help="Bytes of its buffer.")] = None,
-    handshake: Annotated[str | None, typer.Option(help="none, xon-xoff or esc-b.")] = None,
+    handshake: Annotated[
+        str | None, typer.Option(help="none, xon-xoff, rts-cts, dtr, esc-b or enq-ack.")
+    ] = None,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME@PLACE[xAMOUNT][:SECONDS], such as stall@3strokes:5s; repeatable."),
+    ] = None,
+    quirk: Annotated[
+        list[str] | None, typer.Option(help="A habit, such as second-in-cancels; repeatable.")
+    ] = None,
+    live: Annotated[
+        bool | None, typer.Option(help="Redraw a table of what it does; on a terminal it does.")
+    ] = None,
 ) -> None:
-    """Be a plotter behind a serial or TCP port, and draw what is cut on each face."""
-    from foldmill_fabricate.plotter.simulator import devices, run, servers
+    """Be one plotter or several behind serial or TCP ports, and draw what is cut on each face.
 
-    if (pty is None) == (tcp is None):
-        raise FoldmillError("Say where the simulator is found: --pty LINK or --tcp PORT.")
-    if speed_up <= 0:
-        raise FoldmillError(f"--speed-up must be above 0, not {speed_up:g}.")
-    options = {"machine": machine, "clock": "real", "speed_up": str(speed_up)}
+    Each port may have options of its own: --tcp "9100?machine=hp-7475a&fault=silence@500".
+    """
+    from foldmill_fabricate.plotter.simulator import run
+    from foldmill_fabricate.plotter.simulator.offers import offer
+
+    if not (pty or tcp or rfc2217):
+        raise FoldmillError(
+            "Say where the simulator is found: --pty LINK, --tcp PORT or --rfc2217 PORT."
+        )
+    options = {"machine": machine, "speed_up": str(speed_up)}
     options |= {"buffer": str(buffer)} if buffer is not None else {}
     options |= {"handshake": handshake} if handshake is not None else {}
-    simulator = devices.made(machine, options)
-    server = (
-        servers.serve_pty(simulator, pty) if tcp is None else servers.serve_tcp(simulator, port=tcp)
-    )
-    run.run(simulator, server, sys.stdin, typer.echo, draw)
+    options |= {"fault": ",".join(fault or []), "quirk": ",".join(quirk or [])}
+    offers = [offer("pty", each, options) for each in pty or []]
+    offers += [offer("tcp", each, options) for each in tcp or []]
+    offers += [offer("rfc2217", each, options) for each in rfc2217 or []]
+    terminal = sys.stdout.isatty() if live is None else live
+    run.run(offers, sys.stdin, typer.echo, draw, terminal)
 
 
 def demo(
@@ -146,43 +223,6 @@ def demo(
     from foldmill_fabricate.cli.demo import make_stool
 
     make_stool(output, typer.echo)
-
-
-class Person:
-    """The operator at a terminal: told what to do, asked to press Enter."""
-
-    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:
-        """Print what the gate asks for, and wait."""
-        typer.echo(instruction(gate, face, setup, plan), err=True)
-        question = "Enter to go on, q to stop"
-        try:
-            answer = typer.prompt(question, default="", show_default=False, err=True)
-        except typer.Abort:
-            return False
-        return not str(answer).strip().lower().startswith("q")
-
-
-def instruction(gate: Gate, face: Face, setup: SetUp, plan: Plan) -> str:
-    """Return in words what the operator has to do before a set-up on that face."""
-    from foldmill_fabricate.passes import Face, Gate
-
-    if gate is Gate.LOAD:
-        side = "front (outside)" if face is Face.FRONT else "reverse (inside)"
-        return (
-            f"Load a {plan.sheet.width:g} × {plan.sheet.height:g} mm sheet of "
-            f"{plan.material.title} on the mat, its lower left corner at "
-            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the {side} up."
-        )
-    if gate is Gate.FLIP:
-        side = "bottom" if plan.flip.kind == "left-right" else "left"
-        return (
-            f"Turn the sheet over {plan.flip.kind}: the {side} edge stays where it is. The F in "
-            f"the waste must now be on the underside."
-        )
-    return (
-        f"Set the tool for {setup.name}: exposure {setup.exposure:g} mm, force {setup.force:g} gf, "
-        f"speed {setup.speed / 10:g} cm/s."
-    )
 
 
 def read_marks(text: str) -> list[tuple[float, float]]:
@@ -218,19 +258,6 @@ class ProgressLine:
             typer.echo("\r\033[K", nl=False, err=True)
         self._shown = -1
         typer.echo(line, err=self._aside)
-
-
-def _operator(url: str, yes: bool) -> Operator:
-    from foldmill_fabricate.sending import SimulatedOperator
-
-    if not yes:
-        return Person()
-    if not url.startswith("sim://"):
-        raise FoldmillError(
-            "--yes answers prompts on sim:// only: on a machine somebody has to load, change the "
-            "tool and turn the sheet."
-        )
-    return SimulatedOperator(url)
 
 
 def _refuse_another_machine(url: str, job: Job) -> None:

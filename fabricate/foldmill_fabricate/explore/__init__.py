@@ -10,12 +10,12 @@ sweep.fold(sweep.regions[0].centre)
 """
 
 from foldmill_fabricate.explore.chunk import FAULT
-from foldmill_fabricate.explore.engine import Cluster, Engine, Local
 from foldmill_fabricate.explore.grid import AT_MOST, Axis, Grid
 from foldmill_fabricate.explore.ranges import Range
 from foldmill_fabricate.explore.regions import Region
 from foldmill_fabricate.explore.sweep import WORDS, Sweep, explore
 from foldmill_fabricate.explore.table import csv, parquet, summary, table
+from foldmill_fabricate.explore.workers import Cluster, Engine, Local
 
 __all__ = [
     "AT_MOST",

@@ -9,13 +9,11 @@ import queue
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from foldmill.errors import one_line
 from foldmill_fabricate.errors import EngineFailed
-
-if TYPE_CHECKING:
-    from foldmill_fabricate.explore.engine import Cluster
+from foldmill_fabricate.explore.workers import Cluster
 
 R = TypeVar("R")
 Versions = Mapping[str, str]

@@ -5,52 +5,20 @@ joblib is the only way in; what a sweep gives does not depend on the engine.
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pickle import PicklingError
 from typing import Any, TypeVar
 
 from foldmill import FoldmillError
 from foldmill.errors import one_line
-from foldmill_fabricate.errors import CannotExplore, EngineFailed
+from foldmill_fabricate.errors import EngineFailed
+from foldmill_fabricate.explore.cluster import backend, connected, watched
+from foldmill_fabricate.explore.workers import Engine, Local
 
 R = TypeVar("R")
-
-
-@dataclass(frozen=True)
-class Local:
-    """Processes of this machine."""
-
-    jobs: int = -1
-    """How many; -1 for one per core. With 1 the work is done in this process."""
-
-    def __post_init__(self) -> None:
-        if self.jobs == 0 or self.jobs < -1:
-            raise CannotExplore(f"{self.jobs} processes compute nothing; take 1 or more.")
-
-
-@dataclass(frozen=True)
-class Cluster:
-    """A Dask cluster that runs already. Whoever can reach it can run code on it: trust it."""
-
-    address: str
-    """Of the scheduler: ``tcp://host:8786`` or ``tls://host:8786``."""
-    patience_s: float = 10.0
-    """How long to wait for the scheduler, for its first worker, and for one when all are lost."""
-
-    def __post_init__(self) -> None:
-        if not re.fullmatch(r"(tcp|tls)://(\[[0-9a-fA-F:.]+\]|[\w.-]+):\d{1,5}", self.address):
-            raise CannotExplore(
-                f"{self.address!r} is no address of a Dask scheduler; write tcp://HOST:PORT, such "
-                "as tcp://127.0.0.1:8786."
-            )
-
-
-Engine = Local | Cluster
 
 
 def run(
@@ -67,8 +35,6 @@ def run(
         with _told("a process that computes"):
             yield from _parallel(work, wanted, backend="loky", n_jobs=jobs)
         return
-    from foldmill_fabricate.explore.cluster import backend, connected, watched
-
     with connected(engine, packages) as client, _told(f"the cluster at {engine.address}"):
         results = _parallel(work, wanted, backend=backend(client), n_jobs=-1)
         yield from watched(results, client, engine)

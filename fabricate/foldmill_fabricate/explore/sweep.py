@@ -18,11 +18,11 @@ from foldmill.configurations import outcomes, with_values
 from foldmill_fabricate.errors import CannotExplore, EngineFailed
 from foldmill_fabricate.explore import engine as engines
 from foldmill_fabricate.explore.chunk import FAULT, Chunk, Task, compute, joined_figures
-from foldmill_fabricate.explore.engine import Engine, Local
 from foldmill_fabricate.explore.grid import AT_MOST, Grid, grid
 from foldmill_fabricate.explore.ranges import Range
 from foldmill_fabricate.explore.regions import FULL_TURN, Region, closes, regions
 from foldmill_fabricate.explore.store import Store, compute_and_keep, modules
+from foldmill_fabricate.explore.workers import Engine, Local
 
 P = TypeVar("P", bound=Params)
 Progress = Callable[[int, int], None]

@@ -55,6 +55,7 @@ ANCHOR = Layer("ANCHOR", 20, "#b4b4b4", 5)
 _BY_NAME = {layer.name: layer for layer in LAYERS}
 _CUTS = {
     Role.HOLE: "REG",
+    Role.MARK: "REG",
     Role.RELIEF: "CUT_INNER",
     Role.CUT_INNER: "CUT_INNER",
     Role.CUT_OUTER: "CUT_OUTER",

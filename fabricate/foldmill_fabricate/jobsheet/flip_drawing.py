@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill_fabricate.passes import Plan, Role
+from foldmill_fabricate.passes import Face, Plan, Role
+from foldmill_fabricate.pictures import canvas
 from foldmill_fabricate.pictures.sheet import axis_line, strokes
 from foldmill_fabricate.sheet import flipped
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-INK, PALE, MARK = "#202020", "#909090", "#8000a0"
+INK, PALE, MARK, STOP = "#202020", "#909090", "#8000a0", "#c03000"
 
 
 def draw(axes: Axes, plan: Plan, *, after: bool) -> None:
@@ -29,6 +30,7 @@ def draw(axes: Axes, plan: Plan, *, after: bool) -> None:
     axes.plot(*axis_line(sheet, plan.flip, 0.04 * span), color=PALE, linewidth=0.8, linestyle="-.")
     _draw_part(axes, plan, after=after)
     _draw_marks(axes, plan, after=after)
+    _draw_stops(axes, plan, Face.REVERSE if after else Face.FRONT)
     name = "REVERSE up" if after else "FRONT up"
     axes.text(w / 2, h / 2, name, ha="center", va="center", fontsize=11, weight="bold", color=INK)
     if not after:
@@ -76,6 +78,9 @@ def _draw_marks(axes: Axes, plan: Plan, *, after: bool) -> None:
         x, y = _seen(np.array([[hole.x, hole.y]]), plan, after=after)[0]
         axes.plot([x], [y], marker="o", markersize=5, color="#109030", fillstyle="none")
         _label(axes, plan, (x, y), str(number), "#0a6020")
+    for line in strokes(plan, Role.MARK):
+        seen = _seen(line, plan, after=after)
+        axes.fill(*seen.T, facecolor=INK if after else "white", edgecolor="#109030", linewidth=1.2)
     marks = [_seen(line, plan, after=after) for line in strokes(plan, Role.WITNESS)]
     for seen in marks:
         axes.plot(seen[:, 0], seen[:, 1], MARK, linewidth=1.6)
@@ -83,6 +88,18 @@ def _draw_marks(axes: Axes, plan: Plan, *, after: bool) -> None:
         x, y = np.vstack(marks).mean(axis=0)
         words = "mark, underneath" if after else "witness mark"
         _label(axes, plan, (x, y), words, MARK, 0.08)
+
+
+_CARETS = {"left": 5, "right": 4, "bottom": 6, "top": 7}
+"""matplotlib's carets whose tip is at the point and which come from outside the sheet."""
+
+
+def _draw_stops(axes: Axes, plan: Plan, face: Face) -> None:
+    """Draw a wedge outside the blank at each stop, its tip where the edge touches."""
+    for stop in plan.registration.stops:
+        if stop.face is face:
+            spot = [stop.x - plan.sheet.dx], [stop.y - plan.sheet.dy]
+            axes.plot(*spot, marker=_CARETS[stop.edge], markersize=11, color=STOP, clip_on=False)
 
 
 def _label(
@@ -105,3 +122,12 @@ def _draw_arrow(axes: Axes, plan: Plan, span: float) -> None:
     arrow = {"arrowstyle": "-|>", "linewidth": 1.6, "color": INK}
     arrow["connectionstyle"] = f"arc3,rad={bend}"
     axes.annotate("", xy=end, xytext=start, arrowprops=arrow, annotation_clip=False)
+
+
+def flip_picture(plan: Plan) -> bytes:
+    """Return a PNG of the sheet before and after the flip, with what keeps it in register."""
+    with canvas.own_style():
+        figure = canvas.figure(170, 84)
+        for k, after in enumerate((False, True)):
+            draw(canvas.flat_axes(figure, (0.02 + 0.49 * k, 0.02, 0.47, 0.96)), plan, after=after)
+        return canvas.png(figure)

@@ -11,7 +11,7 @@ from foldmill.tolerances import CLOSED_DEG
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.jobsheet.creases import CreaseGroup
 from foldmill_fabricate.passes import Face, Gate, Pass, Plan, SetUp
-from foldmill_fabricate.sheet import flipped, on_carrier
+from foldmill_fabricate.sheet import flipped, seen_by_machine
 
 Row = tuple[str, ...]
 
@@ -124,7 +124,8 @@ def hole_rows(plan: Plan) -> list[Row]:
     rows = []
     for number, hole in enumerate(plan.holes, start=1):
         seen = flipped([(hole.x, hole.y)], plan.flip)
-        spots = ([hole.x, hole.y], seen[0], on_carrier(seen, plan.sheet)[0])
+        found = seen_by_machine(plan, Face.REVERSE, [(hole.x, hole.y)])
+        spots = ([hole.x, hole.y], seen[0], found[0])
         rows.append((str(number), *(f"{x:.2f}, {y:.2f}" for x, y in spots)))
     return rows
 
@@ -209,9 +210,10 @@ def temperature(plan: Plan) -> str:
         return "Temperature: ____ °C."
     span = max(plan.sheet.width, plan.sheet.height)
     drift = plan.material.expansion * 1e-6 * span
+    front, reverse = ("____", "____") if plan.temperatures is None else plan.temperatures
     return (
         f"Do both passes in one session: the sheet moves by {drift:.2f} mm/°C over {span:g} mm. "
-        f"Temperature: front ____ °C, reverse ____ °C."
+        f"Temperature: front {front} °C, reverse {reverse} °C."
     )
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foldmill import CreasePattern, Fold
-from foldmill_fabricate.jobsheet import flip_drawing, words
+from foldmill_fabricate.jobsheet import flip_drawing, register, words
 from foldmill_fabricate.jobsheet.creases import CreaseGroup, groups, middle, midpoints
 from foldmill_fabricate.jobsheet.paper import LEFT, RIGHT, Paper
 from foldmill_fabricate.passes import Plan
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
 HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
+BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
 CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
 
 
@@ -48,9 +49,10 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
     page.heading("Set-ups, in order of work")
     _add_setups(page, plan)
     _add_flip(page, plan)
-    _add_holes(page, plan)
+    _add_register(page, plan)
+    _add_budget(page, plan)
     page.y -= 2
-    page.line(words.temperature(plan), 8.5)
+    page.line(words.temperature(plan), 8)
     page.check_bar(12)
     return page
 
@@ -82,26 +84,35 @@ def _add_flip(page: Paper, plan: Plan) -> None:
         return
     page.heading("The flip")
     page.line(flip_drawing.instruction(plan))
-    size = 66.0
+    size = 52.0
     bottom = page.y - size + 2
     for k, after in enumerate((False, True)):
         flip_drawing.draw(page.window(LEFT + 12 + 84 * k, bottom, 74, size), plan, after=after)
     page.y = bottom - 2
 
 
-def _add_holes(page: Paper, plan: Plan) -> None:
+def _add_register(page: Paper, plan: Plan) -> None:
     if len(plan.passes) < 2:
         return
-    if not plan.holes:
-        page.heading("No registration holes: lay the sheet's edges against stops in both passes")
-        return
-    diameter = plan.holes[0].diameter
-    page.heading(f"Registration holes, {diameter:g} mm wide; middles in mm from the lower left")
-    page.row(words.HOLE_HEAD, HOLE_STOPS, 8, color="#606060")
-    page.rule()
-    for row in words.hole_rows(plan):
+    page.heading(register.heading(plan))
+    head, *rows = register.table(plan) or [words.HOLE_HEAD, *words.hole_rows(plan)]
+    if rows:
+        page.row(head, HOLE_STOPS, 8, color="#606060")
+        page.rule()
+    for row in rows:
         page.row(row, HOLE_STOPS)
-    page.line(words.farthest_holes(plan), 8.5)
+    for said in (*register.sentences(plan), words.farthest_holes(plan)):
+        page.line(said, 8.5)
+
+
+def _add_budget(page: Paper, plan: Plan) -> None:
+    if plan.budget is None:
+        return
+    page.heading("How far the reverse may land beside the front, mm")
+    names, errors = register.budget_table(plan.budget)
+    page.row(names, BUDGET_STOPS, 8, color="#606060")
+    page.row(errors, BUDGET_STOPS, 8)
+    page.line(register.budget_words(plan.budget), 7.5)
 
 
 def _folding_page(plan: Plan, fold: Fold) -> Paper:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.presets import INFORMATION, Preset, Sourced
@@ -131,6 +131,10 @@ class Dialect(Preset):
     """What stands after each instruction."""
     max_instruction: int = Field(240, ge=32)
     """Longest instruction, bytes."""
+    second_in_cancels: bool = False
+    """Whether an IN that arrives later cancels what the machine has not begun."""
+    controls: Literal["hp-7475", "hp-7550"] = "hp-7475"
+    """Which ESC sequences it knows; the HP 7550A has more."""
 
 
 class Motion(Preset):
@@ -154,8 +158,9 @@ class Serial(Preset):
     """How the machine is talked to."""
 
     baud: int = 9600
-    handshake: Literal["none", "xon-xoff", "esc-b"]
-    """How the machine says that it has room: not at all, by XON and XOFF, or when asked by ESC.B.
+    handshake: Literal["none", "xon-xoff", "rts-cts", "dtr", "esc-b", "enq-ack"]
+    """How the machine says that it has room: not at all, by XON and XOFF, by its RTS or DTR line,
+    or when asked by ESC.B or ENQ.
     """
     buffer: int = Field(1024, ge=64)
     """Bytes the machine holds before it overruns."""
@@ -167,15 +172,65 @@ class Marks(Preset):
     """How the machine finds a sheet again."""
 
     kinds: tuple[Literal["holes", "edge", "pins", "l-marks-3", "l-marks-4", "two-target"], ...] = (
-        Field(("holes", "edge"), json_schema_extra=INFORMATION)
+        "holes",
+        "edge",
     )
     """What it, or its operator, can find."""
-    square: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
-    """Side of the filled square of optical marks."""
-    arm: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    square: Mm = Field(0.0, ge=0)
+    """Side of the filled square of optical marks; 0 where all of them are L-shaped."""
+    arm: Mm = Field(0.0, ge=0)
     """Length of the arms of optical marks."""
-    line_width: Mm = Field(0.0, ge=0, json_schema_extra=INFORMATION)
+    line_width: Mm = Field(0.0, ge=0)
     """Width of their lines."""
+    hole_error: Mm = Field(0.2, ge=0)
+    """How far off an operator measures the middle of a hole."""
+    optical_error: Mm = Field(0.2, ge=0)
+    """How far off its sensor finds marks."""
+    pin_diameter: Mm = Field(5.0, gt=0)
+    """Of the pins on its carrier."""
+    pin_spacing: Mm = Field(0.0, ge=0)
+    """Distance of the two pins, middle to middle; 0 where it has none."""
+    pin_error: Mm = Field(0.3, ge=0)
+    """How far off a sheet lies on pins."""
+    edge_error: Mm = Field(1.0, ge=0)
+    """How far off a sheet lies against stops."""
+
+    @model_validator(mode="after")
+    def _measured(self) -> Self:
+        """Refuse kinds whose sizes are not given."""
+        if {"l-marks-3", "l-marks-4"} & {*self.kinds} and not (self.arm and self.line_width):
+            raise ValueError("kinds names L marks, which need arm and line_width")
+        if "l-marks-3" in self.kinds and not self.square:
+            raise ValueError("kinds names l-marks-3, of which one is a square: square is missing")
+        if "pins" in self.kinds and not self.pin_spacing:
+            raise ValueError("kinds names pins, which need pin_spacing")
+        return self
+
+
+class TwoSides(Preset):
+    """Where a flipped sheet comes to lie on this machine, less where it ought to: of a coupon.
+
+    Of the reverse as the machine sees it, about the blank's lower left corner there: what ought to
+    lie at p lies at turn(p, angle) + (dx, dy). Programs of the reverse follow the sheet so, after
+    the mirror and before scale and skew. Marks that were measured on the sheet itself say the whole
+    of it and stand in its place; so do optical marks, which the machine finds itself.
+    """
+
+    dx: Mm = Field(0.0, ge=-10, le=10)
+    """How far the sheet lies to the right."""
+    dy: Mm = Field(0.0, ge=-10, le=10)
+    """How far it lies up."""
+    angle: Deg = Field(0.0, ge=-2, le=2)
+    """By how much it is turned counter-clockwise."""
+    flip: Literal["left-right", "end-over-end"] = "left-right"
+    """How the sheet was turned when this was measured; it says nothing of the other way."""
+    measured: str = Field("", json_schema_extra=INFORMATION)
+    """When, by whom and with what it was measured; empty where it never was."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is anything to make up for."""
+        return bool(self.dx or self.dy or self.angle)
 
 
 class Files(Preset):
@@ -215,10 +270,11 @@ class Machine(Sourced):
     motion: Motion
     serial: Serial
     marks: Marks = Field(default_factory=lambda: Marks.model_validate({}))
+    two_sides: TwoSides = Field(default_factory=lambda: TwoSides.model_validate({}))
     files: Files = Field(default_factory=lambda: Files.model_validate({}))
     mark_tolerance: Mm = Field(0.3, gt=0)
     """Largest residual of measured registration marks that is still believed."""
-    repeatability: Mm = Field(0.15, ge=0, json_schema_extra=INFORMATION)
+    repeatability: Mm = Field(0.15, ge=0)
     """How far a line lands from where it landed before."""
     provenance: str
     """Where the values come from that name no source of their own."""

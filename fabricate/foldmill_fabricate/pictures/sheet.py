@@ -25,6 +25,7 @@ LOOKS: dict[Key, tuple[str, str, float]] = {
     (Role.CUT_INNER, None): ("inner cuts", "#a09000", 1.4),
     (Role.CUT_OUTER, None): ("outline", "#d01010", 1.6),
     (Role.HOLE, None): ("holes", "#109030", 1.4),
+    (Role.MARK, None): ("registration marks", "#109030", 1.4),
     (Role.WITNESS, None): ("witness mark", "#8000a0", 1.8),
 }
 """Name, colour and width in points; both faces are drawn unmirrored."""
@@ -111,6 +112,9 @@ def _draw_blank(axes: Axes, sheet: Sheet, flip: Flip | None, span: float) -> Non
 def _label_places(axes: Axes, plan: Plan, span: float, letters: float) -> None:
     for k, hole in enumerate(plan.holes, start=1):
         x, y = hole.x + 0.7 * hole.diameter, hole.y + 0.7 * hole.diameter
+        axes.text(x, y, str(k), fontsize=9, color="#0a6020")
+    for k, mark in enumerate(plan.registration.marks, start=1):
+        x, y = mark.x + 0.3 * mark.across * mark.size, mark.y + 0.3 * mark.upward * mark.size
         axes.text(x, y, str(k), fontsize=9, color="#0a6020")
     for tie in plan.ties:
         axes.plot([tie.x], [tie.y], marker="o", markersize=7, color="#d01010", fillstyle="none")

@@ -17,6 +17,7 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import XY, Pass, SetUp, Sheet
+from foldmill_fabricate.plan.optical import box
 from foldmill_fabricate.plan.registration import Registration, parts
 from foldmill_fabricate.toolpath.knife import lead_in
 
@@ -73,7 +74,8 @@ def _free(part: Any, marks: Registration, sheet: Sheet, room: float) -> Any:
     blank = shapely.box(room, room, sheet.width - room, sheet.height - room)
     holes = [shapely.Point(h.x, h.y).buffer(h.diameter / 2 + room) for h in marks.holes]
     witness = [_line(stroke.points).buffer(room) for stroke in marks.witness]
-    taken = [part.buffer(room), *holes, *witness]
+    windows = [box(mark).buffer(room) for mark in marks.made.marks]
+    taken = [part.buffer(room), *holes, *windows, *witness]
     return blank.difference(shapely.union_all(taken))
 
 

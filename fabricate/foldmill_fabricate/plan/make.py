@@ -18,9 +18,10 @@ from foldmill.slits import sewn
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Kind, Material
-from foldmill_fabricate.passes import Face, Flip, Hole, Plan, Sheet
+from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet
 from foldmill_fabricate.plan import (
     blanks,
+    budget,
     lead_ins,
     lines,
     processes,
@@ -29,6 +30,7 @@ from foldmill_fabricate.plan import (
     scores,
     setups,
     sides,
+    two_sides,
 )
 from foldmill_fabricate.plan import relief as relief_holes
 from foldmill_fabricate.plan.figures import measure
@@ -56,6 +58,8 @@ def make(
     relief: relief_holes.Relief = "none",
     copies: int = 1,
     grid: tuple[int, int] | None = None,
+    register: RegistrationKind = "holes",
+    temperatures: tuple[float, float] | None = None,
 ) -> Plan:
     """Plan the sheet of a fold.
 
@@ -63,8 +67,9 @@ def make(
     do; blank : (width, height) mm, by default the material's stock; carrier : (width, height) mm,
     by default the machine's mat; flip : how the operator turns the sheet; unassigned : where U
     creases are scored; relief : which vertices get a hole; copies : how many parts, in the grid
-    that suits the blank; grid : (columns, rows) of copies instead. The same input gives the same
-    plan. Raises CannotPlan or DoesNotFit with a sentence.
+    that suits the blank; grid : (columns, rows) of copies instead; register : what keeps the faces
+    in register; temperatures : of the sheet at both passes, °C. The same input gives the same plan.
+    Raises CannotPlan or DoesNotFit with a sentence.
     """
     if not len(fold.pattern.vertices):
         raise CannotPlan("The pattern is empty; there is nothing to cut.")
@@ -79,7 +84,7 @@ def make(
     spots, rims = every[0], [_rim(pattern, own) for own in every]
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
-    marks = _register(rims, sheet, turn, material, by_face)
+    marks = _register(register, rims, sheet, turn, material, machine, by_face)
     found = _vertices(pattern, spots, by_face, material, relief)
     reliefs = [found.reliefs(own) for own in every]
     drawn, ties = lines.drawn(pattern, every, by_face, found.stops, reliefs, material, machine)
@@ -97,13 +102,26 @@ def make(
         flip=turn,
         unassigned=unassigned,
         holes=marks.holes,
+        registration=marks.made,
+        temperatures=temperatures,
         ties=ties,
         reliefs=tuple(hole for own in reliefs for hole in own),
         passes=passes,
         figures=measure(passes, machine, sheet, turn),
     )
+    draft = draft.model_copy(update={"budget": budget.reckon(draft)})
     judged = rules.judge(pattern, spots, by_face, found.stops, found.relieved, draft)
-    return draft.model_copy(update={"findings": (*_folds(fold), *marks.findings, *judged)})
+    return draft.model_copy(
+        update={
+            "findings": (
+                *_folds(fold),
+                *marks.findings,
+                *two_sides.findings(draft),
+                *budget.findings(draft),
+                *judged,
+            )
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -154,16 +172,18 @@ def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
 
 
 def _register(
+    kind: RegistrationKind,
     rims: Sequence[Floats],
     sheet: Sheet,
     turn: Flip,
     material: Material,
+    machine: Machine,
     by_face: ByFace,
 ) -> Registration:
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    return registration.register(rims, sheet, turn, material)
+    return registration.register(kind, rims, sheet, turn, material, machine)
 
 
 def _rim(pattern: CreasePattern, spots: Floats) -> Floats:

@@ -1,22 +1,34 @@
-"""How the flip keeps register: four holes in the waste, and a mark that shows the sheet was turned.
+"""How the flip keeps register: holes, pins, optical marks or edges, and a mark that shows the turn.
 
-Two pairs of holes are symmetric about the flip axis, so that a turned sheet shows holes where holes
-were. Their spacings differ and they are not symmetric about the other centre line, so that a sheet
-turned the wrong way shows it.
+Of holes, two pairs are symmetric about the flip axis, so that a turned sheet shows holes where
+holes were. Their spacings differ and they are not symmetric about the other centre line, so that a
+sheet turned the wrong way shows it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Holes, Material
-from foldmill_fabricate.passes import Flip, Hole, Sheet, Stroke
+from foldmill_fabricate.passes import (
+    Flip,
+    Hole,
+    Mark,
+    Register,
+    RegistrationKind,
+    Sheet,
+    Stroke,
+)
+from foldmill_fabricate.plan import optical, pins
+from foldmill_fabricate.plan.stops import stops
 from foldmill_fabricate.sheet import flipped
 from foldmill_fabricate.toolpath.knife import facets, is_facetted
 
@@ -33,6 +45,9 @@ WITNESS_CLEARANCE = 3.0
 """mm around the witness mark to the part, the edge and the holes."""
 
 
+UNHELD = Register(kind="none")
+
+
 @dataclass(frozen=True)
 class Registration:
     """Holes and witness mark, in sheet coordinates; empty where nothing fits, with the reason."""
@@ -40,29 +55,105 @@ class Registration:
     holes: tuple[Hole, ...] = ()
     witness: tuple[Stroke, ...] = ()
     findings: tuple[Finding, ...] = ()
+    made: Register = UNHELD
+    """What the plan says of it."""
 
 
-def register(rims: Sequence[Floats], sheet: Sheet, flip: Flip, material: Material) -> Registration:
-    """Find holes and witness mark in the waste around the parts, outlines (n, 2) on the sheet."""
-    holes = material.holes
-    if not material.cut.goes_through:
-        return Registration(findings=(_not_cut(material),))
+def register(
+    kind: RegistrationKind,
+    rims: Sequence[Floats],
+    sheet: Sheet,
+    flip: Flip,
+    material: Material,
+    machine: Machine,
+) -> Registration:
+    """Find what keeps the faces in register in the waste around parts, outlines (n, 2), mm.
+
+    Where it does not fit, edge stops take its place and a finding says by how much. Raises
+    CannotPlan for a kind that the machine does not offer.
+    """
+    _refuse(kind, machine)
+    if kind == "none":
+        return Registration(findings=(_unheld(),))
     part = parts(rims)
+    found = _found(kind, part, sheet, flip, material, machine)
+    if found.made.kind == "edge":
+        found = replace(found, made=Register(kind="edge", stops=stops(sheet, flip)))
+    witness, more = _witness(_with(part, found.made.marks), sheet, found.holes)
+    return replace(found, witness=witness, findings=(*found.findings, *more))
+
+
+def offered(machine: Machine) -> list[str]:
+    """Return the kinds of registration that a machine, or its operator, can do."""
+    names = [each.removesuffix("-3").removesuffix("-4") for each in machine.marks.kinds]
+    return [*dict.fromkeys(name for name in names if name != "two-target"), "none"]
+
+
+def _refuse(kind: RegistrationKind, machine: Machine) -> None:
+    if kind not in offered(machine):
+        raise CannotPlan(
+            f"{machine.slug} cannot register a flipped sheet by {kind}; it can by "
+            f"{', '.join(offered(machine))}."
+        )
+
+
+def _found(
+    kind: RegistrationKind,
+    part: Any,
+    sheet: Sheet,
+    flip: Flip,
+    material: Material,
+    machine: Machine,
+) -> Registration:
+    """Return what fits, without the witness mark; kind edge where nothing does."""
+    edge = Register(kind="edge")
+    if kind == "edge":
+        return Registration(made=edge)
+    if not material.cut.goes_through:
+        return Registration(findings=(_not_cut(material),), made=edge)
+    if kind == "l-marks":
+        marks, findings = optical.find(part, sheet, flip, material, machine.marks)
+        made = Register(kind="l-marks", marks=marks) if marks else edge
+        return Registration(findings=findings, made=made)
+    if kind == "pins":
+        holes, findings = pins.find(part, sheet, flip, material.holes, machine.marks)
+        spots = pins.on_machine(holes, sheet, flip) if holes else ()
+        made = Register(kind="pins", pins=spots) if holes else edge
+        return Registration(holes, findings=findings, made=made)
+    found = _holes(part, sheet, flip, material.holes)
+    if not found:
+        return Registration(findings=(_no_room(part, sheet, material.holes),), made=edge)
+    return Registration(found, made=Register(kind="holes"))
+
+
+def _holes(part: Any, sheet: Sheet, flip: Flip, holes: Holes) -> tuple[Hole, ...]:
     radius = holes.diameter / 2
     room = (holes.edge_clearance + radius, holes.part_clearance + radius)
     spots = _grid(sheet)
     spots = spots[_is_free(spots, part, sheet, *room)]
     spots = spots[_is_free(flipped(spots, flip), part, sheet, *room)]
-    pairs = _two_pairs(spots, sheet, flip)
-    if pairs is None:
-        return Registration(findings=(_no_room(part, sheet, holes),))
-    found = tuple(
+    return tuple(
         Hole(x=float(x), y=float(y), diameter=holes.diameter)
-        for spot in pairs
+        for spot in _two_pairs(spots, sheet, flip) or ()
         for x, y in np.vstack([spot, flipped([spot], flip)])
     )
-    witness, findings = _witness(part, sheet, found)
-    return Registration(found, witness, findings)
+
+
+def _with(part: Any, marks: tuple[Mark, ...]) -> Any:
+    """Return the area that parts and optical marks take."""
+    import shapely
+
+    return shapely.union_all([part, *map(optical.box, marks)]) if marks else part
+
+
+def _unheld() -> Finding:
+    return Finding(
+        "no-registration",
+        Severity.WARNING,
+        "waste",
+        "Nothing keeps the reverse in register with the front, as was asked for.",
+        "Plan without --registration none where the faces must match.",
+    )
 
 
 def parts(rims: Sequence[Floats]) -> Any:
@@ -122,8 +213,8 @@ def _not_cut(material: Material) -> Finding:
         "no-registration-holes",
         Severity.WARNING,
         "waste",
-        f"Registration holes are cut through, and this outline is made by {material.cut.title}.",
-        "Lay both passes against the same edge stop, and write an F on the front by hand.",
+        f"Holes and marks are cut through, and this outline is made by {material.cut.title}.",
+        "Lay both passes against the same edge stops, as the job sheet says.",
     )
 
 
@@ -141,7 +232,7 @@ def _no_room(part: Any, sheet: Sheet, holes: Holes) -> Finding:
         "waste",
         f"Four registration holes do not fit beside the part: the widest free circle has a radius "
         f"of {widest:.1f} mm and a hole needs {need:.1f} mm ({short}).",
-        "Lay both passes against the same edge stop, or take a larger blank.",
+        "Lay both passes against the same edge stops of the job sheet, or take a larger blank.",
     )
 
 

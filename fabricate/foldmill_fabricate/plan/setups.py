@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Flip, Gate, Operation, Pass, Role, SetUp, Sheet, Stroke
+from foldmill_fabricate.plan.optical import window
 from foldmill_fabricate.plan.registration import Registration, hole_rim
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import order
@@ -65,12 +66,14 @@ def passes(
     if len(scored) == 2:
         front = lines(Face.FRONT, home)
         holes = _hole_strokes(marks, machine.tools.host_offset, home)
-        drafts.append(_cut("holes", Face.FRONT, material, holes=holes))
+        windows = order.sorted_strokes([window(mark) for mark in marks.made.marks], 1, home)
+        name = "marks" if windows else "holes"
+        drafts.append(_cut(name, Face.FRONT, material, holes=holes, marks=windows))
         drafts.append(_score(Face.FRONT, material, front.scores, marks.witness))
         home = flipped([home], flip)[0]
     final = lines(last, home)
     drafts.append(_score(last, material, final.scores))
-    drafts.append(_cut("cut", last, material, (), final.relief, final.inner, final.outer))
+    drafts.append(_cut("cut", last, material, (), (), final.relief, final.inner, final.outer))
     return _number([draft for draft in drafts if draft.operations], material, machine)
 
 
@@ -94,6 +97,7 @@ def _cut(
     face: Face,
     material: Material,
     holes: tuple[Stroke, ...] = (),
+    marks: tuple[Stroke, ...] = (),
     relief: tuple[Stroke, ...] = (),
     inner: tuple[Stroke, ...] = (),
     outer: tuple[Stroke, ...] = (),
@@ -103,6 +107,7 @@ def _cut(
         Operation(role=role, repeats=cut.repeats, overcut=cut.overcut, strokes=strokes)
         for role, strokes in (
             (Role.HOLE, holes),
+            (Role.MARK, marks),
             (Role.RELIEF, relief),
             (Role.CUT_INNER, inner),
             (Role.CUT_OUTER, outer),

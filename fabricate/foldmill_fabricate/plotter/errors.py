@@ -6,8 +6,10 @@
     ├── PlotterError (OSError)           the port or the machine did not do its part
     │   ├── PortUnavailable              no such port, busy, not permitted, no such scheme
     │   ├── NoAnswer (TimeoutError)      silence where an answer was due
-    │   └── Stopped                      a person stopped it
-    └── ProgramRefused (InvalidInput)    bytes that must not reach a machine
+    │   ├── Stopped                      a person stopped it
+    │   └── Fenced                       another process has taken the run over
+    ├── ProgramRefused (InvalidInput)    bytes that must not reach a machine
+    └── LedgerRefused (InvalidInput)     what the ledger of passes does not allow
 """
 
 from __future__ import annotations
@@ -33,3 +35,11 @@ class Stopped(PlotterError):
 
 class ProgramRefused(InvalidInput):
     """Bytes that must not reach a machine."""
+
+
+class LedgerRefused(InvalidInput):
+    """What the ledger of passes does not allow."""
+
+
+class Fenced(PlotterError):
+    """A run whose token another process has taken."""

@@ -41,7 +41,7 @@ def open_port(url: str, machine: Machine) -> Any:
             baudrate=machine.serial.baud,
             xonxoff=machine.serial.handshake == "xon-xoff",
             timeout=READ_SLICE,
-            write_timeout=_WRITE_PATIENCE,
+            write_timeout=None if url.startswith("rfc2217://") else _WRITE_PATIENCE,
             exclusive=True,
         )
     except serial.SerialException as error:

@@ -25,6 +25,7 @@ CAUTION = 1.25
 LENT = 16
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
 time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
+_MOST_COLLISIONS = 20
 _LONGEST_NAP = 0.25
 """s between two questions."""
 _NAP = 0.02
@@ -57,7 +58,7 @@ def pace(session: Session, job: Job) -> Pace:
     return Asked(session, job) if session.controls else Modelled(session, job)
 
 
-class Ledger:
+class Sums:
     """Sums over the instructions of a job: bytes and seconds before each."""
 
     def __init__(self, job: Job) -> None:
@@ -84,7 +85,7 @@ class Asked:
     """
 
     def __init__(self, session: Session, job: Job) -> None:
-        self._session, self._ledger = session, Ledger(job)
+        self._session, self._sums = session, Sums(job)
         self._reserve = reserve(session.buffer)
         self._kept = self._reserve - min(LENT, self._reserve // 4)
         self._cover = ceil(1.5 * session.round_trip / session.byte_time)
@@ -97,13 +98,15 @@ class Asked:
         """Instructions that had left the buffer then."""
         self._asked: int | None = None
         """Instructions written before the open question."""
+        self._places = self._collisions = 0
+        """Positions heard before it; questions in a row that met one."""
         self._progress = self._changed = self._asked_when = session.clock.now()
         """When an instruction was last seen to leave the buffer; when an answer last differed."""
 
     @property
     def ahead(self) -> float:
         """Motion that may still be under way, the one that has left the buffer included."""
-        return self._ledger.in_flight(max(0, self._done - 1), self._sent)
+        return self._sums.in_flight(max(0, self._done - 1), self._sent)
 
     def wait_for(self, number: int) -> None:
         """Return when it fits; asks at once when it does not."""
@@ -127,39 +130,66 @@ class Asked:
     @property
     def _bound(self) -> int:
         """Bytes that are free at least."""
-        ledger = self._ledger
-        return self._free - (ledger.bytes[self._sent] - ledger.bytes[self._free_at])
+        sums = self._sums
+        return self._free - (sums.bytes[self._sent] - sums.bytes[self._free_at])
 
     def _fits(self, number: int) -> bool:
-        length = len(self._ledger.parts[number].data)
-        return length + self._kept <= self._bound and self._ledger.may_follow(self._done, number)
+        length = len(self._sums.parts[number].data)
+        return length + self._kept <= self._bound and self._sums.may_follow(self._done, number)
 
     def _following(self, number: int) -> int:
         """Return the bytes that could follow instruction ``number`` without another answer."""
-        ledger = self._ledger
-        room = self._bound - self._reserve + ledger.bytes[self._sent]
-        last = bisect_right(ledger.bytes, room) - 1
-        if last >= len(ledger.parts):
+        sums = self._sums
+        room = self._bound - self._reserve + sums.bytes[self._sent]
+        last = bisect_right(sums.bytes, room) - 1
+        if last >= len(sums.parts):
             return self._cover  # all the rest fits
-        while last > number + 1 and not ledger.may_follow(self._done, last - 1):
+        while last > number + 1 and not sums.may_follow(self._done, last - 1):
             last -= 1
-        return max(0, ledger.bytes[last] - ledger.bytes[number + 1])
+        return max(0, sums.bytes[last] - sums.bytes[number + 1])
 
     def _ask(self) -> None:
         if self._asked is None:
+            while self._session.hearing:  # two answers at once are an error of the machine
+                self._session.clock.sleep(self._session.byte_time)
             self._session.ask_free()
             self._asked, self._asked_when = self._sent, self._session.clock.now()
+            self._places = self._session.places
 
     def _wait(self) -> None:
+        answer = self._session.answer(self._soon(self._asked_when))
+        if answer is None and self._session.places > self._places:
+            self._collided()
+            return
         on_line = self._session.buffer * self._session.byte_time
-        answer = self._session.answer(self._asked_when + on_line + PATIENCE)
+        answer = answer or self._session.answer(self._asked_when + on_line + PATIENCE)
         if answer is None:
             raise NoAnswer(
                 f"The plotter has stopped answering after instruction {self._sent} of "
-                f"{len(self._ledger.parts)}; the cable, or the machine itself."
+                f"{len(self._sums.parts)}; the cable, or the machine itself."
             )
         self._hear(answer)
         self._check_progress()
+
+    def _soon(self, asked: float) -> float:
+        """Return by when an answer is there that nothing has met."""
+        session = self._session
+        return asked + session.buffer * session.byte_time + 4 * session.round_trip
+
+    def _collided(self) -> None:
+        """Ask again: the question met the answer to OA, and was dropped for it."""
+        self._asked = None
+        self._collisions += 1
+        if self._collisions > _MOST_COLLISIONS:
+            raise NoAnswer(
+                "The plotter tells its position, but not its free bytes: it does not know ESC.B. "
+                'Use a profile with the handshake "xon-xoff" or "none".'
+            )
+        if self._session.io_error(self._soon(self._session.clock.now())):
+            raise NoAnswer(
+                "The machine reports that bytes were lost or garbled on the line. Check the cable "
+                "and the baud rate."
+            )
 
     def _hear(self, answer: str | None) -> None:
         if answer is None or self._asked is None:
@@ -171,10 +201,11 @@ class Asked:
             )
         if self._free_at != self._asked or str(self._free) != answer:
             self._changed = self._session.clock.now()
+        self._collisions = 0
         self._free, self._free_at = min(int(answer), self._session.buffer), self._asked
         self._asked = None
-        gone = self._ledger.bytes[self._free_at] - (self._session.buffer - self._free)
-        done = max(self._done, bisect_right(self._ledger.bytes, gone) - 1)
+        gone = self._sums.bytes[self._free_at] - (self._session.buffer - self._free)
+        done = max(self._done, bisect_right(self._sums.bytes, gone) - 1)
         if done > self._done or self._done == self._sent:
             self._progress = self._session.clock.now()
         self._done = done
@@ -188,7 +219,7 @@ class Asked:
             return
         raise NoAnswer(
             f"The plotter answers, but has not got beyond instruction {self._done} of "
-            f"{len(self._ledger.parts)} in the time that takes: it stands still, or is far slower "
+            f"{len(self._sums.parts)} in the time that takes: it stands still, or is far slower "
             f"than its profile says. Its own display may say why."
         )
 
@@ -196,10 +227,10 @@ class Asked:
         """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
         if self._fits(number):
             return
-        clock, length = self._session.clock, len(self._ledger.parts[number].data)
+        clock, length = self._session.clock, len(self._sums.parts[number].data)
         nap = _NAP * (clock.now() - self._changed)
         if length + self._reserve <= self._bound:
-            nap = (self._ledger.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
+            nap = (self._sums.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
         clock.sleep(min(_LONGEST_NAP, nap))
 
 
@@ -211,7 +242,7 @@ class Modelled:
     """
 
     def __init__(self, session: Session, job: Job) -> None:
-        self._session, self._ledger = session, Ledger(job)
+        self._session, self._sums = session, Sums(job)
         self._guarded = session.machine.serial.handshake == "xon-xoff"
         self._factor = 1.0 if self._guarded else CAUTION
         self._room = session.buffer - reserve(session.buffer)
@@ -235,7 +266,7 @@ class Modelled:
 
     def written(self, number: int) -> None:
         """Work out when it will have arrived and been executed."""
-        part = self._ledger.parts[number]
+        part = self._sums.parts[number]
         start = max(self._line_free, self._session.clock.now())
         self._line_free = start + len(part.data) * self._session.byte_time
         self._finished = max(self._line_free, self._finished) + part.seconds * self._factor
@@ -253,9 +284,9 @@ class Modelled:
 
     def _fits(self, number: int) -> bool:
         done = self._ends[0][1]
-        in_buffer = self._ledger.bytes[number + 1] - self._ledger.bytes[done]
+        in_buffer = self._sums.bytes[number + 1] - self._sums.bytes[done]
         room = self._guarded or in_buffer <= self._room
-        return room and self._ledger.may_follow(done, number)
+        return room and self._sums.may_follow(done, number)
 
     def _wait_until_sent(self) -> None:
         """Keep at most one instruction in this computer, where XOFF could hold it unseen."""
@@ -266,6 +297,6 @@ class Modelled:
             if session.clock.now() >= deadline:
                 raise NoAnswer(
                     f"The plotter has held the line since instruction {self._sent} of "
-                    f"{len(self._ledger.parts)}; it may be paused or out of order."
+                    f"{len(self._sums.parts)}; it may be paused or out of order."
                 )
             session.clock.sleep(session.byte_time * most / 8)

@@ -21,7 +21,8 @@ XY = tuple[float, float]
 _INSTRUCTION = re.compile(rb"\s*[Ll][Bb][^\x03]*\x03;?\s*|[^;]*;\s*|[^;]+\Z", re.DOTALL)
 _FOREIGN = re.compile(rb"[^\x20-\x7e\r\n\t\x03]")
 _OUTPUT = re.compile(rb"\s*O[A-Z]", re.IGNORECASE)
-_PART = re.compile(rb"([A-Za-z])\s*([A-Za-z])([^A-Za-z;]*)")
+PART = re.compile(rb"([A-Za-z])\s*([A-Za-z])([^A-Za-z;]*)")
+"""One instruction inside a piece: its two letters and its parameters."""
 _COORDINATES = re.compile(rb"(\s*)(P[UDAR])([\d,+\-.\s]*);(\s*)\Z", re.IGNORECASE)
 _MOVES = (b"PU", b"PD", b"PA", b"PR")
 
@@ -95,6 +96,10 @@ class Instruction:
     """of motion, by the machine's own figures"""
     stroke: int
     """0, 1, 2 …; a stroke begins where the tool is lifted or moved up"""
+    at: XY | None
+    """Where it leaves the tool, steps; None before the first motion."""
+    asks: bool = False
+    """Whether it is a question of the sender's own, answered with that place."""
 
 
 @dataclass(frozen=True)
@@ -104,11 +109,13 @@ class Job:
     parts: tuple[Instruction, ...]
     end: XY | None
     """Where the tool stands at the end, steps; None where it never moves."""
+    strokes: int
+    """How many there are, up to the last that draws."""
 
     @property
     def data(self) -> bytes:
-        """All bytes, in order."""
-        return b"".join(part.data for part in self.parts)
+        """All bytes of the program, in order."""
+        return b"".join(part.data for part in self.parts if not part.asks)
 
     @property
     def seconds(self) -> float:
@@ -120,7 +127,7 @@ def ready(program: bytes, machine: Machine) -> Job:
     """Find how long each instruction takes; raises ProgramRefused for what is no number."""
     timer = _Timer(machine)
     parts = [timer.timed(piece, number) for number, piece in enumerate(instructions(program), 1)]
-    return Job(tuple(parts), timer.at if timer.moved else None)
+    return Job(tuple(parts), timer.at if timer.moved else None, timer.strokes)
 
 
 class _Timer:
@@ -130,7 +137,7 @@ class _Timer:
         self.machine = machine
         self.at: XY = (0.0, 0.0)
         self.moved = self.down = self.relative = False
-        self.stroke = 0
+        self.stroke = self.strokes = 0
         self.speed = machine.motion.travel_speed
         self.pace = Pace(machine.motion)
 
@@ -138,25 +145,25 @@ class _Timer:
         seconds = 0.0
         if piece.lstrip()[:2].upper() != b"LB":
             try:
-                for first, second, rest in _PART.findall(piece):
-                    seconds += self._follow((first + second).upper(), _numbers(rest))
+                for first, second, rest in PART.findall(piece):
+                    seconds += self._follow((first + second).upper(), numbers(rest))
             except ValueError:
                 raise ProgramRefused(
                     f"Instruction {number} ({_shown(piece)}) holds something that is no number, or "
                     "half a pair of coordinates. Write the program again."
                 ) from None
-        return Instruction(piece, seconds, self.stroke)
+        return Instruction(piece, seconds, self.stroke, self.at if self.moved else None)
 
-    def _follow(self, name: bytes, numbers: list[float]) -> float:
+    def _follow(self, name: bytes, given: list[float]) -> float:
         if name in _MOVES:
-            return self._move(name, numbers)
-        if name == b"VS" and numbers:
-            self.speed = max(numbers[0] * 10, 1e-3)
+            return self._move(name, given)
+        if name == b"VS" and given:
+            self.speed = max(given[0] * 10, 1e-3)
         if name == b"IN":
             self.relative, self.speed = False, self.machine.motion.travel_speed
         return self.machine.motion.tool_time if name == b"SP" else 0.0
 
-    def _move(self, name: bytes, numbers: list[float]) -> float:
+    def _move(self, name: bytes, given: list[float]) -> float:
         seconds = 0.0
         if name in (b"PA", b"PR"):
             self.relative = name == b"PR"
@@ -164,10 +171,11 @@ class _Timer:
             self.down = not self.down
             self.pace.stop()
             self.stroke += not self.down
+            self.strokes = self.stroke + self.down
             seconds = self.machine.motion.lift_time
-        if not numbers:
+        if not given:
             return seconds
-        steps = np.reshape(numbers, (-1, 2))  # raises ValueError for half a pair
+        steps = np.reshape(given, (-1, 2))  # raises ValueError for half a pair
         way = np.vstack([[self.at], np.cumsum(np.vstack([[self.at], steps]), 0)[1:]])
         if not self.relative:
             way[1:] = steps
@@ -186,15 +194,13 @@ def _divided(piece: bytes, limit: int, number: int) -> Iterator[bytes]:
     if not found:
         raise ProgramRefused(_too_long(piece, limit, number))
     lead, name, rest, tail = found.groups()
-    numbers = rest.replace(b" ", b"").split(b",")
-    if len(numbers) % 2:
+    flat = rest.replace(b" ", b"").split(b",")
+    if len(flat) % 2:
         raise ProgramRefused(
             f"Instruction {number} ({_shown(piece)}) holds half a pair of coordinates. "
             "Write the program again."
         )
-    yield from _packed(
-        zip(numbers[::2], numbers[1::2], strict=True), lead, name, tail, limit, number
-    )
+    yield from _packed(zip(flat[::2], flat[1::2], strict=True), lead, name, tail, limit, number)
 
 
 def _packed(
@@ -217,7 +223,8 @@ def _packed(
     yield line + b";" + tail
 
 
-def _numbers(text: bytes) -> list[float]:
+def numbers(text: bytes) -> list[float]:
+    """Return the parameters of an instruction; raises ValueError for what is no number."""
     stripped = text.strip()
     return [float(each) for each in stripped.split(b",")] if stripped else []
 

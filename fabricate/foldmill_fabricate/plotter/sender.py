@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, Protocol
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
@@ -21,7 +21,9 @@ from foldmill_fabricate.plotter.errors import (
 from foldmill_fabricate.plotter.link import clock_of
 from foldmill_fabricate.plotter.pacing import SLACK, Pace, pace
 from foldmill_fabricate.plotter.program import XY, Job, checked, ready, rechunk
+from foldmill_fabricate.plotter.resume import Start, rest
 from foldmill_fabricate.plotter.session import PATIENCE, Session, longest
+from foldmill_fabricate.plotter.witness import Witness, is_off, position, watched
 
 _OE = {
     1: "an instruction it does not know",
@@ -31,8 +33,7 @@ _OE = {
     6: "a position beyond its limits",
     8: "its pinch wheels up",
 }
-_STEP = 1.0
-"""A machine that rounds may report a neighbouring step."""
+FROM_THE_START = Start()
 
 
 class Status(StrEnum):
@@ -74,6 +75,21 @@ class Delivery:
     """what is wrong, a sentence; empty for nothing"""
 
 
+class Book(Protocol):
+    """Where it is written down how far a delivery is."""
+
+    def advance(self, sent: int, acked: int) -> None:
+        """Strokes before ``sent`` may be cut, strokes before ``acked`` are."""
+        ...
+
+
+class NoBook:
+    """A delivery of which nothing is kept: of a test, or a trial."""
+
+    def advance(self, sent: int, acked: int) -> None:
+        """Keep nothing."""
+
+
 def as_sent(program: bytes, machine: Machine, buffer: int | None = None) -> bytes:
     """Return the bytes that reach the machine: the same path, in instructions it can hold.
 
@@ -89,13 +105,16 @@ def send(
     machine: Machine,
     clock: Clock | None = None,
     progress: Callable[[Progress], None] | None = None,
+    start: Start = FROM_THE_START,
+    book: Book | None = None,
 ) -> Delivery:
     """Send a program and wait until the machine says it is executed, or cannot say.
 
-    port : an open port of ``open_port``. clock : the port's own where not given.
-    On any exception the machine is stopped first, as far as its profile allows. Raises
-    ProgramRefused before anything is sent, Stopped on Ctrl-C, NoAnswer for a machine that has gone
-    silent, PlotterError for a port that fails; their text says what the operator has to do.
+    port : an open port of ``open_port``; clock : the port's own where not given; start : where it
+    is taken up again; book : is told of every stroke before a byte of it leaves. On any exception
+    the machine is stopped first, as far as its profile allows. Raises ProgramRefused before
+    anything is sent, Stopped on Ctrl-C, NoAnswer for a machine that has gone silent, PlotterError
+    for a port that fails; their text says what the operator has to do.
     """
     if machine.serial.handshake == "esc-b" and not machine.serial.answers:
         raise ProgramRefused(
@@ -105,7 +124,9 @@ def send(
     ready(as_sent(program, machine), machine)  # refused before a byte leaves
     session = Session(port, machine, clock or clock_of(port))
     try:
-        return _deliver(program, session, progress or (lambda _: None))
+        return _Delivery(session, book or NoBook()).run(
+            program, start, progress or (lambda _: None)
+        )
     except KeyboardInterrupt:
         raise Stopped(f"Stopped. {session.stop()}") from None
     except OSError as error:
@@ -117,50 +138,82 @@ def send(
         raise
 
 
-def _deliver(program: bytes, session: Session, tell: Callable[[Progress], None]) -> Delivery:
-    began = session.clock.now()
-    session.open()
-    job = ready(as_sent(program, session.machine, session.buffer), session.machine)
-    feed = pace(session, job)
-    _stream(job, session, feed, tell)
-    feed.finish()
-    status, position, error, fault = _confirm(job, session, feed)
-    seconds = session.clock.now() - began
-    return Delivery(status, len(job.data), len(job.parts), seconds, position, error, fault)
+def whereabouts(port: Any, machine: Machine, clock: Clock | None = None) -> XY | None:
+    """Have a machine drop what it holds, and say where its tool stands, steps.
 
-
-def _stream(job: Job, session: Session, feed: Pace, tell: Callable[[Progress], None]) -> None:
-    sent, total = 0, len(job.data)
-    for number, part in enumerate(job.parts):
-        feed.wait_for(number)
-        session.write(part.data)
-        feed.written(number)
-        sent += len(part.data)
-        tell(Progress(sent, total, number + 1, len(job.parts)))
-
-
-def _confirm(job: Job, session: Session, feed: Pace) -> tuple[Status, XY | None, int | None, str]:
-    """Ask what is answered in order: where the tool is, and whether anything went wrong."""
-    if not session.machine.serial.answers:
-        return Status.UNCONFIRMED, None, None, ""
-    place = session.query(b"OA;", PATIENCE + SLACK * feed.ahead)
-    if place is None:
-        return Status.UNCONFIRMED, None, None, ""
-    found = session.query(b"OE;", PATIENCE)
-    if found is None:
-        return Status.UNCONFIRMED, _position(place), None, ""
-    error = int(found) if found.isdigit() else None
-    lost = session.io_error() if session.controls else 0
-    fault = _fault(job, place, found, lost)
-    return Status.FAULT if fault else Status.EXECUTED, _position(place), error, fault
-
-
-def _position(answer: str) -> XY | None:
-    try:
-        x, y = (float(each) for each in answer.split(",")[:2])
-    except ValueError:
+    None where it cannot drop a half-sent instruction, or does not answer: then nothing is sent.
+    """
+    if machine.serial.handshake != "esc-b":
         return None
-    return x, y
+    session = Session(port, machine, clock or clock_of(port))
+    session.open()
+    session.write(b"OA;")
+    answer = session.place(session.clock.now() + PATIENCE)
+    return position(answer) if answer else None
+
+
+class _Delivery:
+    """One program on its way."""
+
+    def __init__(self, session: Session, book: Book) -> None:
+        self._session, self._book = session, book
+
+    def run(self, program: bytes, start: Start, tell: Callable[[Progress], None]) -> Delivery:
+        session, began = self._session, self._session.clock.now()
+        session.open()
+        machine = session.machine
+        job = ready(as_sent(program, machine, session.buffer), machine)
+        if not start.is_fresh:
+            job = rest(job, machine, longest(session.buffer, machine), start)
+        if machine.serial.answers:
+            job = watched(job)
+        feed, witness = pace(session, job), Witness(session, job)
+        self._stream(job, feed, witness, tell)
+        feed.finish()
+        status, place, error, fault = self._confirm(job, feed, witness)
+        if status is Status.EXECUTED:
+            self._book.advance(job.strokes, job.strokes)
+        count = sum(not part.asks for part in job.parts)
+        seconds = session.clock.now() - began
+        return Delivery(status, len(job.data), count, seconds, place, error, fault)
+
+    def _stream(
+        self, job: Job, feed: Pace, witness: Witness, tell: Callable[[Progress], None]
+    ) -> None:
+        total, count = len(job.data), sum(not part.asks for part in job.parts)
+        sent = done = 0
+        for number, part in enumerate(job.parts):
+            feed.wait_for(number)
+            self._book.advance(min(part.stroke + 1, job.strokes), witness.acked)
+            self._session.write(part.data)
+            feed.written(number)
+            witness.written(number)
+            if not part.asks:
+                sent, done = sent + len(part.data), done + 1
+                tell(Progress(sent, total, done, count))
+
+    def _confirm(
+        self, job: Job, feed: Pace, witness: Witness
+    ) -> tuple[Status, XY | None, int | None, str]:
+        """Ask what is answered in order: where the tool is, and whether anything went wrong."""
+        session = self._session
+        if not session.machine.serial.answers:
+            return Status.UNCONFIRMED, None, None, ""
+        session.write(b"OA;")
+        deadline = session.clock.now() + PATIENCE + SLACK * feed.ahead
+        heard = witness.finish(deadline)
+        self._book.advance(job.strokes, witness.acked)
+        place = session.place(deadline) if heard else None
+        if place is None:
+            return Status.UNCONFIRMED, None, None, ""
+        session.write(b"OE;")
+        found = session.answer(session.clock.now() + PATIENCE)
+        if found is None:
+            return Status.UNCONFIRMED, position(place), None, ""
+        error = int(found) if found.isdigit() else None
+        lost = session.io_error() if session.controls else 0
+        fault = _fault(job, place, found, lost)
+        return Status.FAULT if fault else Status.EXECUTED, position(place), error, fault
 
 
 def _fault(job: Job, place: str, error: str, lost: int | None) -> str:
@@ -169,10 +222,10 @@ def _fault(job: Job, place: str, error: str, lost: int | None) -> str:
         return f"The machine reports error {error}: {meaning}."
     if lost:
         return f"The machine reports that bytes were lost or garbled on the line (error {lost})."
-    at = _position(place)
+    at = position(place)
     if at is None:
         return f"The machine answered {place!r} where it should have told its position."
-    if job.end and max(abs(at[0] - job.end[0]), abs(at[1] - job.end[1])) > _STEP:
+    if job.end and is_off(at, job.end):
         return (
             f"The tool stands at {at[0]:g}, {at[1]:g} steps, but the program ends at "
             f"{job.end[0]:g}, {job.end[1]:g}."

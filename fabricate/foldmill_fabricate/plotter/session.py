@@ -1,12 +1,14 @@
 """A conversation with one machine: open it, ask it, write to it, stop it.
 
 Device control (ESC . letter) is spoken only to machines whose handshake is ESC.B; a cutter that
-does not know it might take the letters for HP-GL. Never two questions at once: overlapping output
-is an I/O error of the machine.
+does not know it might take the letters for HP-GL. Never two of those questions at once:
+overlapping output is an I/O error of the machine. What HP-GL asks is answered in its own time, and
+told apart by its commas.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from foldmill_fabricate.machines import Machine
@@ -15,6 +17,8 @@ from foldmill_fabricate.plotter.errors import NoAnswer
 
 _FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
+_MET = 10
+"""I/O error of a question that met another answer: it was dropped, and nothing else."""
 _PAUSED = 16 | 32
 """Bits of the extended status: paused by a key, or a lever up."""
 
@@ -60,6 +64,10 @@ class Session:
         self.whole = True
         """Whether all that was written so far ends with a whole instruction."""
         self._heard = b""
+        self._numbers: deque[str] = deque()
+        self._places: deque[str] = deque()
+        self.places = 0
+        """Positions that were heard so far."""
 
     @property
     def controls(self) -> bool:
@@ -68,7 +76,7 @@ class Session:
 
     def open(self) -> None:
         """Find the machine ready; raises NoAnswer where it should answer and does not."""
-        self.port.reset_input_buffer()
+        self._forget_answers()
         if not self.controls:
             return
         self.port.write(_FORGET)
@@ -97,36 +105,67 @@ class Session:
         text = self.answer(self.clock.now() + patience)
         return int(text) if text is not None and text.isdigit() else None
 
-    def io_error(self) -> int | None:
-        """Return the machine's I/O error, 0 for none; None for silence."""
-        return self.control(_ERROR, PATIENCE)
+    def io_error(self, deadline: float | None = None) -> int:
+        """Return the machine's I/O error; 0 for none, for silence, and for questions that met."""
+        patience = PATIENCE if deadline is None else deadline - self.clock.now()
+        found = self.control(_ERROR, patience) or 0
+        return 0 if found == _MET else found
 
     def paused(self) -> bool:
         """Whether somebody has paused the machine at its own keys."""
         return bool((self.control(_STATUS, PATIENCE) or 0) & _PAUSED)
 
-    def query(self, question: bytes, patience: float) -> str | None:
-        """Ask by HP-GL, which is answered when all before it is executed; None for silence."""
-        self.write(question)
-        return self.answer(self.clock.now() + patience)
-
     def answer(self, deadline: float) -> str | None:
-        """Return the next answer, without its CR; None where there is none by then."""
-        while (found := self.answer_at_hand()) is None:
+        """Return the next answer that is no position, without its CR; None for none by then."""
+        return self._wait_for(self._numbers, deadline)
+
+    def answer_at_hand(self) -> str | None:
+        """Return such an answer if one has come in whole."""
+        self._listen()
+        return self._numbers.popleft() if self._numbers else None
+
+    def place(self, deadline: float) -> str | None:
+        """Return the next answer to OA; None where there is none by then."""
+        return self._wait_for(self._places, deadline)
+
+    def place_at_hand(self) -> str | None:
+        """Return an answer to OA if one has come in whole."""
+        self._listen()
+        return self._places.popleft() if self._places else None
+
+    @property
+    def hearing(self) -> bool:
+        """Whether an answer has begun to come in."""
+        self._listen()
+        return bool(self._heard)
+
+    def _wait_for(self, answers: deque[str], deadline: float) -> str | None:
+        self._listen()
+        while not answers:
             if self.clock.now() >= deadline:
                 return None
             self._heard += self.port.read(1)
-        return found
+            self._listen()
+        return answers.popleft()
 
-    def answer_at_hand(self) -> str | None:
-        """Return an answer if one has come in whole."""
+    def _listen(self) -> None:
+        """Sort whole answers: positions are the ones with a comma."""
         ready = self.port.in_waiting
         if ready:
             self._heard += self.port.read(ready)
-        if b"\r" not in self._heard:
-            return None
-        line, _, self._heard = self._heard.partition(b"\r")
-        return line.translate(None, _NOISE).decode("ascii", "replace").strip()
+        while b"\r" in self._heard:
+            line, _, self._heard = self._heard.partition(b"\r")
+            text = line.translate(None, _NOISE).decode("ascii", "replace").strip()
+            is_place = "," in text
+            self.places += is_place
+            (self._places if is_place else self._numbers).append(text)
+        self._heard = self._heard.lstrip(_NOISE)
+
+    def _forget_answers(self) -> None:
+        self.port.reset_input_buffer()
+        self._heard = b""
+        self._numbers.clear()
+        self._places.clear()
 
     def unsent(self) -> int | None:
         """Return the bytes still in this computer; None where the port cannot tell."""
@@ -159,8 +198,7 @@ class Session:
         if found is None:  # some machines tell it only when they are at rest
             self.port.write(_FORGET_ANSWERS)
             self.clock.sleep(self.round_trip)
-            self.port.reset_input_buffer()
-            self._heard = b""
+            self._forget_answers()
         return found if found and _SMALLEST <= found <= _LARGEST else self.buffer
 
     def _lift_xoff(self) -> None:

@@ -69,16 +69,17 @@ def _things(asked: Asked) -> list[tuple[str, str, Any]]:
         ("lead-in-place", f"hole {k}", shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2))
         for k, hole in enumerate(plan.holes, 1)
     ]
-    return found + [("lead-in-place", "witness mark", line) for line in _witness(plan)]
+    found += [("lead-in-place", "registration mark", line) for line in _lines(plan, Role.MARK)]
+    return found + [("lead-in-place", "witness mark", line) for line in _lines(plan, Role.WITNESS)]
 
 
-def _witness(plan: Plan) -> Iterator[Any]:
+def _lines(plan: Plan, role: Role) -> Iterator[Any]:
     import shapely
 
     for side in plan.passes:
         for setup in side.setups:
             for operation in setup.operations:
-                if operation.role is Role.WITNESS:
+                if operation.role is role:
                     yield from (shapely.LineString(s.points) for s in operation.strokes)
 
 

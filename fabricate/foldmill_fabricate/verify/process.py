@@ -11,13 +11,14 @@ from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 
 _PROCESS = {
     Role.HOLE: "cut",
+    Role.MARK: "cut",
     Role.WITNESS: "score",
     Role.SCORE: "score",
     Role.RELIEF: "cut",
     Role.CUT_INNER: "cut",
     Role.CUT_OUTER: "cut",
 }
-_FIRST = (Role.HOLE, Role.WITNESS)
+_FIRST = (Role.HOLE, Role.MARK, Role.WITNESS)
 _LAST = (Role.RELIEF, Role.CUT_INNER, Role.CUT_OUTER)
 _ORDER = list(Role)
 _SUPERFLUOUS = {
@@ -71,6 +72,7 @@ def _pass_findings(plan: Plan) -> list[Finding]:
 def _plural(role: Role) -> str:
     return {
         Role.HOLE: "Holes",
+        Role.MARK: "Registration marks",
         Role.WITNESS: "Witness marks",
         Role.SCORE: "Scores",
         Role.RELIEF: "Relief holes",
@@ -142,7 +144,7 @@ def _whole_sheet(plan: Plan) -> list[Finding]:
         text = f"The blade stands out {exposure:g} mm for the outline, and the sheet is "
         found.append(_error("cut-depth", plan.material.slug, f"{text}{thickness:g} mm thick."))
     through = {op.role for side in plan.passes for s in side.setups for op in s.operations}
-    for role in sorted(through & {Role.HOLE, Role.RELIEF}):
+    for role in sorted(through & {Role.HOLE, Role.MARK, Role.RELIEF}):
         text = f"{_plural(role)} go through the sheet; {plan.material.cut.title} does not."
         found.append(_error("wrong-process", "plan", text))
     return found

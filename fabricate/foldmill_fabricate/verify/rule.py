@@ -12,6 +12,7 @@ from foldmill_fabricate.verify.cuts import prove_cuts
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
 from foldmill_fabricate.verify.planned import planned
 from foldmill_fabricate.verify.process import prove_process
+from foldmill_fabricate.verify.register import prove_register
 from foldmill_fabricate.verify.relief import prove_relief
 from foldmill_fabricate.verify.waste import prove_waste
 
@@ -27,5 +28,6 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
         *prove_cuts(asked, strokes),
         *prove_relief(asked, strokes),
         *prove_waste(asked, strokes),
+        *prove_register(asked, strokes),
         *prove_lead_ins(asked),
     ]

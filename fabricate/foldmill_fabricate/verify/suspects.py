@@ -17,7 +17,7 @@ from foldmill.tolerances import COINCIDENT_MM
 from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.planned import Planned
-from foldmill_fabricate.verify.virtual_sheet import rotation, to_carrier
+from foldmill_fabricate.verify.virtual_sheet import rotation, stored_offset, to_carrier
 
 Floats = NDArray[np.float64]
 Solver = Callable[[Floats, Floats], tuple[Floats, Floats]]
@@ -69,7 +69,9 @@ def _exact_suspects(
     for kind in ("none", "left-right", "end-over-end", "half-turn"):
         cause = _mirror_cause(plan, file.face, kind)
         if cause is not None:
-            yield cause, [_turned(stroke.points, plan, kind) for stroke in own]
+            yield cause, [_turned(stroke.points, plan, kind, file.face) for stroke in own]
+    if file.face is Face.REVERSE and fit is None and plan.machine.two_sides.is_known:
+        yield _two_sides(), [to_carrier(s.points, plan, file.face, _AS_WISHED) for s in own]
     for cause, setups, face in _others(plan, file):
         other = [stroke for stroke in strokes if stroke.setup.number in setups]
         yield cause, [to_carrier(stroke.points, plan, face, fit) for stroke in other]
@@ -112,13 +114,26 @@ def _mirror_cause(plan: Plan, face: Face, kind: str) -> Cause | None:
     return Cause("wrong-flip", message, "Write it for the flip that the plan names.")
 
 
-def _turned(points: Floats, plan: Plan, kind: str) -> Floats:
+_AS_WISHED = Fit(angle=0.0, dx=0.0, dy=0.0)
+
+
+def _two_sides() -> Cause:
+    message = "It is made for a flipped sheet that lies exactly where it ought to; the machine's "
+    message += "stored offset of the two sides says otherwise."
+    return Cause("two-sides", message, "Write the program for this machine again.")
+
+
+def _turned(points: Floats, plan: Plan, kind: str, face: Face) -> Floats:
     """Carrier coordinates of sheet points after turning the blank, in its own middle, by a kind."""
     sheet = plan.sheet
     signs = {"none": (1, 1), "left-right": (-1, 1), "end-over-end": (1, -1), "half-turn": (-1, -1)}
     sign = np.array(signs[kind], float)
     size = np.array([sheet.width, sheet.height])
-    carrier: Floats = points * sign + np.where(sign < 0, size, 0.0) + (sheet.dx, sheet.dy)
+    lies = points * sign + np.where(sign < 0, size, 0.0)
+    if face is Face.REVERSE:
+        turn, shift = stored_offset(plan)
+        lies = lies @ turn.T + shift
+    carrier: Floats = lies + np.array([sheet.dx, sheet.dy])
     return carrier
 
 

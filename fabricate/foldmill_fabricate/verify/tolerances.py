@@ -58,3 +58,13 @@ MISFIT: Final = 0.05
 
 EVEN_SCALE: Final = 2e-4
 """Two scales that differ by no more are one: 0.1 mm over a sheet of 500 mm."""
+
+WINDOW_MM: Final = 1.0
+"""mm. The arms of optical marks may be cut as wide as this, where the machine has thinner lines: a
+thinner strip does not come out of the sheet."""
+
+MARK_EDGE_MM: Final = 10.0
+"""mm. From an optical mark to the blank's edge at least."""
+
+APART_MM: Final = 15.0
+"""mm. A mark this far from where it is looked for is not found: it shows a sheet turned wrongly."""

@@ -1,9 +1,10 @@
 """The virtual sheet: what the programs draw, carried back from machine steps to the sheet.
 
 The way there, for each point of the sheet (mm, front view): turned over with the sheet when it lies
-face down, shifted by where the blank lies on its carrier, for a fitted reverse turned and shifted
-as the sheet was found to lie, leant and scaled as the machine was calibrated, and last multiplied
-by the steps per mm. Derived here once more.
+face down, then turned and shifted by what the machine's two sides are apart, shifted by where the
+blank lies on its carrier, leant and scaled as the machine was calibrated, and last multiplied by
+the steps per mm. A fitted reverse is turned and shifted as the sheet was found to lie, on the
+carrier, in place of what the machine has stored. Derived here once more.
 """
 
 from __future__ import annotations
@@ -54,24 +55,42 @@ def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:
 def on_sheet(carrier: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:
     """Turn carrier coordinates (n, 2) of a pass into sheet coordinates, mm."""
     seen = np.asarray(carrier, float)
-    reverse = face is Face.REVERSE
-    if reverse and fit is not None:
+    corner = np.array([plan.sheet.dx, plan.sheet.dy])
+    if face is Face.FRONT:
+        front: Floats = seen - corner
+        return front
+    if fit is not None:
         seen = (seen - (fit.dx, fit.dy)) @ rotation(-fit.angle).T
-    seen = seen - (plan.sheet.dx, plan.sheet.dy)
-    result: Floats = turned_over(seen, plan.flip) if reverse else seen
-    return result
+    turn, shift = stored_offset(plan) if fit is None else (np.eye(2), np.zeros(2))
+    return turned_over((seen - corner - shift) @ turn, plan.flip)
 
 
 def to_carrier(sheet: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:
     """Turn sheet coordinates (n, 2) into the carrier coordinates of a pass, mm."""
     seen = np.asarray(sheet, float)
-    reverse = face is Face.REVERSE
-    seen = turned_over(seen, plan.flip) if reverse else seen
-    seen = seen + np.array([plan.sheet.dx, plan.sheet.dy])
-    if reverse and fit is not None:
-        seen = seen @ rotation(fit.angle).T + np.array([fit.dx, fit.dy])
-    result: Floats = seen
-    return result
+    corner = np.array([plan.sheet.dx, plan.sheet.dy])
+    if face is Face.FRONT:
+        front: Floats = seen + corner
+        return front
+    seen = turned_over(seen, plan.flip)
+    if fit is None:
+        turn, shift = stored_offset(plan)
+        stored: Floats = seen @ turn.T + shift + corner
+        return stored
+    found: Floats = (seen + corner) @ rotation(fit.angle).T + np.array([fit.dx, fit.dy])
+    return found
+
+
+def stored_offset(plan: Plan) -> tuple[Floats, Floats]:
+    """Return how a flipped sheet lies on this machine: a matrix (2, 2) and a shift (2,), mm.
+
+    Nothing where it was measured of sheets that were turned the other way, and nothing where a
+    sensor finds the sheet by its marks.
+    """
+    stored = plan.machine.two_sides
+    if stored.flip == plan.flip.kind and plan.registration.kind != "l-marks":
+        return rotation(stored.angle), np.array([stored.dx, stored.dy])
+    return np.eye(2), np.zeros(2)
 
 
 def turned_over(points: Floats, flip: Flip) -> Floats:

@@ -36,12 +36,12 @@ def _absent(plan: Plan, witness: Sequence[Planned]) -> list[Finding]:
     """Check that a sheet that is turned over has holes and a mark, or the plan says why not."""
     if len(plan.passes) < 2:
         return []
-    said = {finding.code for finding in plan.findings}
+    kind, said = plan.registration.kind, {finding.code for finding in plan.findings}
     found = []
-    if not plan.holes and "no-registration-holes" not in said:
+    if not plan.holes and kind in {"holes", "pins"}:
         text = "The sheet is turned over, and has no registration holes."
         found.append(_error("holes-missing", "waste", text))
-    if not witness and not said & {"no-witness-mark", "no-registration-holes"}:
+    if not witness and kind != "none" and "no-witness-mark" not in said:
         text = "The sheet is turned over, and no mark shows whether it was."
         found.append(_error("witness-missing", "waste", text))
     return found
@@ -144,9 +144,11 @@ def _one_hole(plan: Plan, hole: Hole, where: str, part: Any) -> list[Finding]:
     import shapely
 
     rule, sheet, radius = plan.material.holes, plan.sheet, hole.diameter / 2
+    over_pins = plan.registration.kind == "pins"
+    wanted = plan.machine.marks.pin_diameter if over_pins else rule.diameter
     found = []
-    if abs(hole.diameter - rule.diameter) > tolerances.PLAN_MM:
-        text = f"Its diameter is {hole.diameter:g} mm, not {rule.diameter:g} mm."
+    if abs(hole.diameter - wanted) > tolerances.PLAN_MM:
+        text = f"Its diameter is {hole.diameter:g} mm, not {wanted:g} mm."
         found.append(_error("hole-diameter", where, text))
     to_edge = min(hole.x, hole.y, sheet.width - hole.x, sheet.height - hole.y) - radius
     to_part = float(shapely.distance(part, shapely.Point(hole.x, hole.y))) - radius

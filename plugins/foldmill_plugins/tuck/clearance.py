@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.check.intersection import cut_lengths, triangle_normals
+from foldmill.check.triangles import cut_lengths, triangle_normals
 from foldmill.tolerances import PENETRATION
 from foldmill.vectors import least, most
 from foldmill_plugins.tuck.blanks import Blank

@@ -13,13 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill import ImpossibleGeometry
+from foldmill_plugins.waterbomb.poles import require_normals
 from foldmill_plugins.waterbomb.surfaces import Jet, Surface
 from foldmill_plugins.waterbomb.topology import Topology
 
 Floats = NDArray[np.float64]
 
 DEGENERATE = 1e-9
-"""Share of the form's size below which an edge of the base mesh has no length."""
+"""Share of the form's size below which a length in the base mesh is none."""
+TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,8 @@ def cell_sizes(jet: Jet, du: float, dv: float) -> Floats:
 def base_mesh(surface: Surface, topology: Topology, offsets: Offsets) -> Floats:
     """Return the vertices (V, 3) of the base mesh.
 
-    Raises ImpossibleGeometry where the target has no finite point, no normal, or an edge vanishes.
+    Raises ImpossibleGeometry where the target has no finite point, no normal, or an edge or a facet
+    vanishes, and where a rim that slides beyond the target's range comes to a pole there.
     """
     u, v = parameters(surface, topology, offsets)
     with np.errstate(all="ignore"):
@@ -110,12 +113,22 @@ def base_mesh(surface: Surface, topology: Topology, offsets: Offsets) -> Floats:
     away = np.where(topology.is_centre, -np.asarray(offsets.depth), offsets.lift)
     height = offsets.side * away * cell_sizes(jet, du, dv)
     points: Floats = jet.p + (height / area)[:, None] * jet.cross
-    edges = topology.edges
-    lengths = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
-    short = np.zeros(len(points), bool)
-    short[edges[lengths <= DEGENERATE * size].ravel()] = True
-    _refuse(surface, short, u, v, "gives a facet without area: two of its corners are one point")
+    _require_area(surface, topology, points, u, v)
+    if v.min() < surface.v[0] - DEGENERATE * dv or v.max() > surface.v[1] + DEGENERATE * dv:
+        require_normals(surface, v=(float(v.min()), float(v.max())))
     return points
+
+
+def _require_area(
+    surface: Surface, topology: Topology, points: Floats, u: Floats, v: Floats
+) -> None:
+    size = float(np.ptp(points, axis=0).max())
+    a, b, c = points[topology.faces].transpose(1, 0, 2)
+    longest = np.linalg.norm(np.stack([b - a, c - b, a - c]), axis=2).max(axis=0)
+    altitude = np.linalg.norm(np.cross(b - a, c - a), axis=1) / np.maximum(longest, TINY)
+    thin = np.zeros(len(points), bool)
+    thin[topology.faces[altitude <= DEGENERATE * size].ravel()] = True
+    _refuse(surface, thin, u, v, "gives a facet without area: its corners lie on one line")
 
 
 def _refuse(surface: Surface, faults: ArrayLike, u: Floats, v: Floats, said: str) -> None:

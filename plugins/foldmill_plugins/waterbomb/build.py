@@ -14,7 +14,7 @@ from foldmill_plugins.waterbomb.curvature import flat_metric
 from foldmill_plugins.waterbomb.fit import Fitted, fitted
 from foldmill_plugins.waterbomb.jacobian import Stars
 from foldmill_plugins.waterbomb.kawasaki import FlatFoldable
-from foldmill_plugins.waterbomb.metric import Start, closed_form
+from foldmill_plugins.waterbomb.metric import Start, closed_form, crowding
 from foldmill_plugins.waterbomb.nested import halved, transferred
 from foldmill_plugins.waterbomb.objective import Objective
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -63,6 +63,12 @@ class Build:
         is_inner = self.params.side == "inner"
         return 1 if is_inner == self.surface.is_outward else -1
 
+    @property
+    def depth(self) -> float:
+        """The depth that is stated, or the usual one of the start."""
+        usual = UNIFORM_DEPTH if self.start == "uniform" else DEPTH
+        return usual if self.params.depth is None else self.params.depth
+
     @cached_property
     def promise(self) -> Start:
         """The depths that make the folded metric flat: the feasibility indicator rests on them."""
@@ -70,6 +76,11 @@ class Build:
         wants_field = self.params.start == "flat-metric" or not self.surface.is_revolution
         make = flat_metric if wants_field else closed_form
         return make(self.surface, self.topology, depth)
+
+    @cached_property
+    def crowding(self) -> float:
+        """Greatest depth that flatness asks for, in heights of a cell as they are at that depth."""
+        return crowding(self.surface, self.topology, self.promise, self.side)
 
     @cached_property
     def start(self) -> str:
@@ -85,7 +96,7 @@ class Build:
         """How far the vertices of the base mesh leave the grid."""
         given, inside = self.params, self.params.rim == "inside"
         if self.start == "uniform":
-            depth: float | Floats = UNIFORM_DEPTH if given.depth is None else given.depth
+            depth: float | Floats = self.depth
             slide: float | Floats = UNIFORM_SLIDE
         else:
             depth, slide = self.promise.depth, self.promise.slide

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_plugins.waterbomb.build import Build
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.topology import Indices
@@ -29,7 +30,7 @@ def report(params: WaterbombParams) -> dict[str, Any]:
 
     Raises ImpossibleGeometry where there is no base mesh.
     """
-    build = Build(params)
+    build = settled(params)
     return measures(build, build.developed.points)
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from foldmill_plugins.waterbomb.build import Build
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.params import WaterbombParams
 from foldmill_plugins.waterbomb.solve import Developed
 
 
 def report(params: WaterbombParams) -> dict[str, Any]:
     """Report the angle sums and their errors at the base mesh and after every step."""
-    return steps(Build(params).developed)
+    return steps(settled(params).developed)
 
 
 def steps(found: Developed) -> dict[str, Any]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_plugins.waterbomb.build import Build
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.hinge import Creases
 from foldmill_plugins.waterbomb.kawasaki import SIGNS, angles
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -30,7 +31,7 @@ def report(params: WaterbombParams) -> dict[str, Any]:
 
     Raises ImpossibleGeometry where there is no base mesh.
     """
-    build = Build(params)
+    build = settled(params)
     return foldability(build, build.developed.points)
 
 

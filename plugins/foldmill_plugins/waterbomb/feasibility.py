@@ -17,11 +17,12 @@ def report(params: WaterbombParams) -> dict[str, Any]:
 
 
 def promised(build: Build) -> dict[str, Any]:
-    """Return the indicator: the deepest base wanted, the curvature left, and the verdict."""
+    """Return the indicator: the deepest base wanted, its room, the curvature left, the verdict."""
     return {
         "deepest": build.promise.deepest,
+        "crowding": build.crowding,
         "curvature_left": build.promise.left,
-        "is_likely": build.promise.is_feasible,
+        "is_likely": build.promise.is_feasible and build.crowding < 1,
     }
 
 
@@ -41,6 +42,12 @@ def warned(build: Build) -> str:
         said += (
             f"To become flat, bases would have to be {promise.deepest:.3g} times as deep as their "
             "cells are high; less than 1 is possible. "
+        )
+    elif build.crowding >= 1:
+        said += (
+            "The target curves towards the pits, and bases would be "
+            f"{build.crowding:.3g} times as deep as their cells are high down there; less than 1 "
+            "is possible. More bases along u, or fewer along v, make them less deep. "
         )
     if promise.left >= MOST_LEFT:
         said += f"No depths take away {100 * promise.left:.3g} % of the target's curvature. "

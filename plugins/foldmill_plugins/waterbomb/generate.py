@@ -14,6 +14,7 @@ from foldmill.folded import fold_pattern
 from foldmill_plugins.waterbomb import feasibility, pieces, simple, status
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.convergence import steps
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.fit import went
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -33,7 +34,7 @@ def generate(params: WaterbombParams) -> Fold:
 
     Raises ImpossibleGeometry where no developable form is found, or it cannot be laid flat.
     """
-    build = Build(params)
+    build = settled(params)
     require_converged(build)
     cut = build.topology.opened()
     solid = from_zero(build, build.developed.points[build.topology.origin])
@@ -56,7 +57,9 @@ def generate(params: WaterbombParams) -> Fold:
         meta=_facts(build, state, scale),
     )
     whole = pieces.Whole(fold, cut, build.topology.origin)
-    return fold if params.pieces.is_whole else pieces.one_of(whole, params.pieces, state)
+    if params.pieces.is_whole(is_simple=state.is_flat_simple):
+        return fold
+    return pieces.one_of(whole, params.pieces, state)
 
 
 def require_converged(build: Build) -> None:
@@ -144,13 +147,28 @@ def _symmetry(build: Build, cut: Topology, solid: Floats) -> Symmetry | None:
     return Symmetry(n_u, wedge, one_sided=True)
 
 
+def told(figure: float) -> float:
+    """Return a figure as it stands in a file, with three digits: more of them are noise."""
+    return float(f"{figure:.3g}")
+
+
 def _facts(build: Build, state: Status, scale: float) -> dict[str, Any]:
     found, target = build.developed, Target.of(build.surface)
     away = target.distances(found.points) / target.diagonal
     return {
         "status": state.facts(),
+        "designed": {
+            **state.said(),
+            "distance_mean": told(float(away.mean())),
+            "distance_largest": told(float(away.max())),
+            "iterations": found.iterations,
+            "e_total_deg": told(found.error),
+            "start": build.start,
+            "depth": build.depth,
+        },
         "bases": build.topology.n_u * build.topology.n_v,
         "start": build.start,
+        "depth": build.depth,
         "feasibility": feasibility.promised(build),
         "convergence": steps(found),
         **({} if build.fit is None else {"fit": went(build.fit)}),

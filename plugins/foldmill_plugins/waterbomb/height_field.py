@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from io import BytesIO
+from math import prod
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -19,10 +20,22 @@ from foldmill_plugins.waterbomb.surfaces import Surface
 
 Floats = NDArray[np.float64]
 
-PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp")
+PICTURES = {
+    ".png": "PNG",
+    ".jpg": "JPEG",
+    ".jpeg": "JPEG",
+    ".tif": "TIFF",
+    ".tiff": "TIFF",
+    ".bmp": "BMP",
+}
+"""The one format each suffix is read as: a picture is never opened by any other reader."""
 NUMBERS = (".csv", ".txt", ".npy")
 MOST_NODES = 200
 MOST_PIXELS = 20_000_000
+MOST_NUMBERS = 4_000_000
+"""Numbers of a text that is read."""
+LONGEST_LINE = 2_000_000
+"""Characters of one of its lines."""
 
 
 class HeightField(NamedFile):
@@ -81,16 +94,14 @@ def averaged(heights: Floats, nodes: int) -> Floats:
 def _heights(params: HeightField) -> Floats:
     """Return the file's numbers (rows, columns); raises ImpossibleGeometry."""
     suffix = Path(params.file).suffix.lower()
-    readers = dict.fromkeys(PICTURES, _picture) | {".npy": _array}
-    readers |= {".csv": _numbers, ".txt": _numbers}
-    if suffix not in readers:
+    if suffix not in (*PICTURES, *NUMBERS):
         raise ImpossibleGeometry(
             f"{params.file}: a height field is read from {' '.join((*PICTURES, *NUMBERS))}, not "
             f"{suffix or 'a file without a suffix'}."
         )
     content = params.content()
     try:
-        found = readers[suffix](content)
+        found = _read(content, suffix)
     except Exception as error:  # a broken file breaks its reader in whatever way it likes
         raise ImpossibleGeometry(
             f"{params.file} is no {suffix} file with one grid of numbers: "
@@ -118,7 +129,13 @@ def _sane(file: str, found: NDArray[Any]) -> Floats:
     return heights
 
 
-def _picture(content: bytes) -> NDArray[Any]:
+def _read(content: bytes, suffix: str) -> NDArray[Any]:
+    if suffix in PICTURES:
+        return _picture(content, PICTURES[suffix])
+    return _array(content) if suffix == ".npy" else _numbers(content)
+
+
+def _picture(content: bytes, kind: str) -> NDArray[Any]:
     import warnings
 
     from PIL import Image, UnidentifiedImageError
@@ -126,9 +143,9 @@ def _picture(content: bytes) -> NDArray[Any]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # its size is looked at
-            image = Image.open(BytesIO(content))
+            image = Image.open(BytesIO(content), formats=[kind])
     except UnidentifiedImageError:
-        raise ValueError("it is no picture") from None
+        raise ValueError(f"it is no {kind} picture") from None
     with image:
         if image.width * image.height > MOST_PIXELS:
             raise ValueError(f"it has more than {MOST_PIXELS // 10**6} million pixels")
@@ -137,13 +154,28 @@ def _picture(content: bytes) -> NDArray[Any]:
 
 
 def _array(content: bytes) -> NDArray[Any]:
-    return np.asarray(np.load(BytesIO(content), allow_pickle=False))
+    file = BytesIO(content)
+    version = np.lib.format.read_magic(file)
+    old, new = np.lib.format.read_array_header_1_0, np.lib.format.read_array_header_2_0
+    shape, _, kind = (old if version == (1, 0) else new)(file)
+    if kind.hasobject or prod(shape) * kind.itemsize > len(content):
+        raise ValueError("it does not hold the numbers that it says it holds")
+    file.seek(0)
+    return np.asarray(np.load(file, allow_pickle=False))
 
 
 def _numbers(content: bytes) -> NDArray[Any]:
     lines = [line for line in content.decode("utf-8-sig").splitlines() if line.strip()]
     mark = next((sign for sign in ";,\t" if lines and sign in lines[0]), None)
-    rows = [[float(word) for word in line.split(mark)] for line in lines]
+    rows: list[Floats] = []
+    left = MOST_NUMBERS
+    for line in lines:
+        if len(line) > LONGEST_LINE:
+            raise ValueError(f"one of its lines has more than {LONGEST_LINE} characters")
+        rows.append(np.array([float(word) for word in line.split(mark)]))
+        left -= len(rows[-1])
+        if left < 0:
+            raise ValueError(f"it has more than {MOST_NUMBERS // 10**6} million numbers")
     widths = {len(row) for row in rows}
     if len(widths) > 1:
         raise ValueError(f"its rows have {min(widths)} to {max(widths)} numbers")

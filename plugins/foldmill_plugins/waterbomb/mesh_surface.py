@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
@@ -24,6 +25,8 @@ SUFFIXES = (".stl", ".obj", ".ply", ".off")
 NODES = (9, 41)
 """Fewest and most nodes of the smooth surface along each side."""
 MOST_FACES = 200_000
+HEAD = 10_000
+"""Bytes within which a mesh file says how much it holds."""
 ASTRAY = 0.03
 """Share of the mesh's diagonal by which the smooth surface may miss one of its vertices."""
 
@@ -95,6 +98,7 @@ def _loaded(params: MeshSurface) -> tuple[Floats, Indices]:
             f"{suffix or 'a file without a suffix'}."
         )
     content = params.content()
+    _require_few(params.file, promised(content, suffix))
     try:
         points, faces = _welded(content, suffix[1:])
     except Exception as error:  # a broken file breaks its reader in whatever way it likes
@@ -104,11 +108,35 @@ def _loaded(params: MeshSurface) -> tuple[Floats, Indices]:
         ) from None
     if not np.isfinite(points).all() or not len(faces) or not np.ptp(points, axis=0).max() > 0:
         raise ImpossibleGeometry(f"{params.file} holds no mesh with finite corners and triangles.")
-    if len(faces) > MOST_FACES:
-        raise ImpossibleGeometry(
-            f"{params.file} has {len(faces)} triangles; take at most {MOST_FACES}."
-        )
+    _require_few(params.file, len(faces))
     return points, faces
+
+
+def _require_few(file: str, count: int) -> None:
+    if count > MOST_FACES:
+        raise ImpossibleGeometry(
+            f"{file} has {count} triangles or more; take at most {MOST_FACES}."
+        )
+
+
+def promised(content: bytes, suffix: str) -> int:
+    """Return how many triangles a mesh file holds at least, or says that it holds, unread.
+
+    Three corners that no other triangle has count as one; ten spaces of an .obj file do, since a
+    polygon may have any number of corners.
+    """
+    if suffix == ".obj":
+        return max(content.count(b"\nf"), content.count(b" ") // 10)
+    if suffix == ".stl":
+        is_text = b"\0" not in content
+        return content.count(b"endfacet") if is_text else (len(content) - 84) // 50
+    head = content[:HEAD]
+    if suffix == ".ply":
+        named = dict(re.findall(rb"element (\S+) +(\d{1,18})", head))
+        corners, faces = named.pop(b"vertex", b"0"), max(map(int, named.values()), default=0)
+    else:
+        corners, faces = ([int(word) for word in re.findall(rb"\d{1,18}", head)] + [0, 0])[:2]
+    return max(int(corners) // 3, faces)
 
 
 def _welded(content: bytes, kind: str) -> tuple[Floats, Indices]:

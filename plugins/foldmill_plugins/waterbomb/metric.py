@@ -95,6 +95,23 @@ def closed_form(surface: Surface, topology: Topology, depth: float) -> Start:
     return start_of(surface, topology, c, 0.0)
 
 
+def crowding(surface: Surface, topology: Topology, start: Start, side: int) -> float:
+    """Return the greatest depth of a centre, in heights of its cell as they are at that depth.
+
+    A target that curves along v towards the pits leaves less room there; from about 1 on, the mids
+    of a base pass each other. side : 1 where centres are displaced against P_u × P_v.
+    """
+    u, v = grid_of(surface, topology)
+    jet = surface.jet(u[topology.is_centre], v[topology.is_centre])
+    du, dv = surface.steps(topology.n_u, topology.n_v)
+    depth = start.depth[topology.is_centre] * cell_sizes(jet, du, dv)
+    square = np.einsum("ij,ij->i", jet.v, jet.v)
+    with np.errstate(all="ignore"):
+        bend = np.einsum("ij,ij->i", jet.vv, jet.cross) / np.linalg.norm(jet.cross, axis=1)
+        room = np.sqrt(square) * dv * (1 + side * depth * bend / square)
+    return float((depth / room).max()) if room.min() > 0 else float("inf")
+
+
 def _widths(jet: Jet, du: float) -> Floats:
     widths: Floats = np.linalg.norm(jet.u, axis=1) * du
     return widths

@@ -1,17 +1,18 @@
 """A parameter that names a file, and holds the sum of its bytes: same parameters, same result.
 
 The sum is taken when the parameters are made and travels with them. A file that has changed since
-is refused, so that a design recorded in a FOLD file is made again as it was or not at all.
+is refused, so that a design recorded in a FOLD file is made again as it was or not at all. Which
+files may be named is for the program to say that takes the parameters (``foldmill.files``).
 """
 
 from __future__ import annotations
 
 from hashlib import sha256
-from pathlib import Path
 
 from pydantic import Field, model_validator
 
-from foldmill import ImpossibleGeometry, Params
+from foldmill import ImpossibleGeometry, Params, UnreadableFile
+from foldmill.files import content
 
 LARGEST = 50_000_000
 """Bytes of a file that is read."""
@@ -27,23 +28,23 @@ class NamedFile(Params):
 
     @model_validator(mode="after")
     def _summed(self) -> NamedFile:
-        content, fault = _read(self.file)
+        found, fault = _read(self.file)
         if fault:
             raise ValueError(fault)
         if not self.sha256:
-            object.__setattr__(self, "sha256", sha256(content).hexdigest())
-        elif sha256(content).hexdigest() != self.sha256:
+            object.__setattr__(self, "sha256", sha256(found).hexdigest())
+        elif sha256(found).hexdigest() != self.sha256:
             raise ValueError(_changed(self.file))
         return self
 
     def content(self) -> bytes:
         """Return the file's bytes; raises ImpossibleGeometry where it is gone or has changed."""
-        content, fault = _read(self.file)
-        if not fault and sha256(content).hexdigest() != self.sha256:
+        found, fault = _read(self.file)
+        if not fault and sha256(found).hexdigest() != self.sha256:
             fault = _changed(self.file)
         if fault:
             raise ImpossibleGeometry(f"The target cannot be read: {fault}.")
-        return content
+        return found
 
 
 def _changed(file: str) -> str:
@@ -57,12 +58,8 @@ def _read(file: str) -> tuple[bytes, str]:
     """Return the bytes, and what is wrong or nothing."""
     if not file:
         return b"", "this target is read from a file; say which by surface.file"
-    path = Path(file)
     try:
-        if not path.is_file():
-            return b"", f"there is no file {file}"
-        if path.stat().st_size > LARGEST:
-            return b"", f"{file} is larger than {LARGEST // 10**6} MB"
-        return path.read_bytes(), ""
-    except (OSError, ValueError) as error:
-        return b"", f"{file} cannot be read ({type(error).__name__})"
+        return content(file, LARGEST), ""
+    except UnreadableFile as error:
+        said = str(error).rstrip(".")
+        return b"", said[0].lower() + said[1:]

@@ -8,6 +8,7 @@ import numpy as np
 
 from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.closeness import measures
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.fit import went
 from foldmill_plugins.waterbomb.hinge import Creases
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -18,7 +19,7 @@ def report(params: WaterbombParams) -> dict[str, Any]:
 
     Raises ImpossibleGeometry where there is no base mesh.
     """
-    build = Build(params.model_copy(update={"fit": params.fit.model_copy(update={"on": True})}))
+    build = settled(params.model_copy(update={"fit": params.fit.model_copy(update={"on": True})}))
     before = measures(build, build.plain.points)
     after = measures(build, build.developed.points)
     return {

@@ -81,7 +81,8 @@ class WaterbombParams(Params):
     everywhere (uniform). auto takes the first of them that promises success."""
     depth: Depth = None
     """Depth of the bases' centres, in sides of a cell: of the widest cell for closed-form, a wish
-    for flat-metric, of each for uniform. Left out: 0.3, for uniform 0.5."""
+    for flat-metric, of each for uniform. Left out: 0.3, for uniform 0.5; with start auto the
+    nearest depth that does where that one folds the wrong way or passes through itself."""
     slide: Slide = None
     """Slide of the mids towards the middle of their base, in heights of a cell. Left out: what the
     depth asks for, for uniform 0.25."""

@@ -18,12 +18,16 @@ Width = Annotated[
 class Pieces(Params):
     """One form from several sheets: each a design of its own, told by its number."""
 
+    auto: bool = False
+    """Whether columns and rows grow until no piece lies upon itself: a sheet that does not is left
+    whole, one that does becomes as few pieces as possible."""
     columns: Count = Field(default=1, le=MOST)
-    """Pieces along u."""
+    """Pieces along u; with auto or a sheet, the fewest of them."""
     rows: Count = Field(default=1, le=MOST)
-    """Pieces along v, each of whole strips."""
+    """Pieces along v, each of whole strips; with auto or a sheet, the fewest of them."""
     sheet_width: Length | None = None
-    """Where stated, columns and rows grow until every piece fits a sheet as wide as this."""
+    """Where stated, columns and rows grow until every piece fits a sheet as wide as this, and lies
+    flat."""
     sheet_height: Length | None = None
     """The same for the height; a piece may be turned."""
     piece: Count = Field(default=1, le=MOST * MOST)
@@ -50,6 +54,14 @@ class Pieces(Params):
         return self.sheet_width, self.sheet_height
 
     @property
-    def is_whole(self) -> bool:
-        """Whether the form is one sheet without tabs."""
-        return self.columns * self.rows == 1 and self.sheet is None and self.tabs == 0
+    def is_sought(self) -> bool:
+        """Whether the number of pieces is looked for, from columns and rows on."""
+        return self.auto or self.sheet is not None
+
+    def is_whole(self, *, is_simple: bool) -> bool:
+        """Tell whether a form is one sheet without tabs; is_simple : it does not lie upon itself.
+
+        A sheet of a stated size is looked at in any case.
+        """
+        is_one = self.columns * self.rows == 1 and self.sheet is None and self.tabs == 0
+        return is_one and (is_simple or not self.auto)

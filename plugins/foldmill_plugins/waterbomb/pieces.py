@@ -80,7 +80,9 @@ def one_of(whole: Whole, wanted: Pieces, state: Status) -> Fold:
     found = divided(whole, wanted)
     own = replace(state, is_flat_simple=found.is_simple(min(wanted.piece, found.count) - 1))
     about = {**whole.fold.meta, "status": own.facts(), "pieces": facts(found, wanted.piece)}
+    about["designed"] = {**about["designed"], **own.said()}
     if found.count > 1:
+        about["designed"]["piece"] = f"{wanted.piece} of {found.count}"
         about["title"] = f"Waterbomb tessellation, piece {wanted.piece} of {found.count}"
     said = (
         *(each for each in whole.fold.findings if each.code != "flat-overlap"),
@@ -91,24 +93,35 @@ def one_of(whole: Whole, wanted: Pieces, state: Status) -> Fold:
 
 
 def divided(whole: Whole, wanted: Pieces) -> Made:
-    """Return the pieces as they are asked for; where a sheet is stated, the fewest that fit it.
+    """Return the pieces as they are asked for, or where they are looked for, the fewest that do.
 
-    Raises ImpossibleGeometry where no number of pieces fits, or a tab or notch has no room.
+    Those must not lie upon themselves, and fit the sheet where one is stated. Raises
+    ImpossibleGeometry where no number of pieces does, or a tab or notch has no room.
     """
-    if wanted.sheet is None:
+    if not wanted.is_sought:
         return made(whole, wanted, wanted.columns, wanted.rows)
     for columns, rows in _numbers(whole.cut, wanted):
-        bare = Made(*_bare(whole, columns, rows))
-        if not bare.fits(wanted.sheet) or not all(map(bare.is_simple, range(bare.count))):
+        if not _does(Made(*_bare(whole, columns, rows)), wanted):
             continue
         found = made(whole, wanted, columns, rows)
-        if found.fits(wanted.sheet):
+        if _does(found, wanted):
             return found
+    if wanted.sheet is None:
+        raise ImpossibleGeometry(
+            f"However it is cut into up to {MOST} columns and rows, a piece lies upon itself, with "
+            "its tabs and notches. Make tabs and notches smaller, or take another depth."
+        )
     width, height = wanted.sheet
     raise ImpossibleGeometry(
         f"Even single bases do not fit a sheet of {width:g} × {height:g} mm, or more than {MOST} "
         "pieces along one side would be needed. Make the form smaller or the sheet larger."
     )
+
+
+def _does(found: Made, wanted: Pieces) -> bool:
+    """Tell whether every piece fits the sheet, where one is stated, and lies flat."""
+    fits = wanted.sheet is None or found.fits(wanted.sheet)
+    return fits and all(map(found.is_simple, range(found.count)))
 
 
 def _numbers(cut: Topology, wanted: Pieces) -> Iterator[tuple[int, int]]:

@@ -9,14 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import ImpossibleGeometry
+from foldmill_plugins.waterbomb.poles import PLACES, grid_over, require_normals
 from foldmill_plugins.waterbomb.surfaces import Jet, Surface
 
 Floats = NDArray[np.float64]
 
-PLACES = 41
-"""Places along u and along v that are looked at, ends and middle included."""
-DEGENERATE = 1e-9
-"""Area of an element of the target, as a share of a square of its size, below which it has none."""
 LIKE = 1e-9
 """Share of the target's size by which places of a surface of revolution may be off."""
 
@@ -32,7 +29,7 @@ def sound(surface: Surface) -> Surface:
     Raises ImpossibleGeometry where it has no finite point, or shrinks to a point or a line.
     """
     guarded = replace(surface, jet=finite(surface.jet))
-    _require_area(guarded)
+    require_normals(guarded)
     is_turned = guarded.is_u_periodic and _is_revolution(guarded)
     return replace(guarded, is_outward=_is_outward(guarded), is_revolution=is_turned)
 
@@ -59,35 +56,6 @@ def finite(jet: Evaluate) -> Evaluate:
     return guarded
 
 
-def _require_area(surface: Surface) -> None:
-    u, v = (grid.ravel() for grid in _grid(surface))
-    jet = surface.jet(u, v)
-    size = float(np.ptp(jet.p, axis=0).max())
-    if not size > 0:
-        raise ImpossibleGeometry("The target is a single point. Let x, y and z depend on u and v.")
-    cell = float(np.ptp(surface.u) * np.ptp(surface.v))
-    with np.errstate(over="ignore"):
-        area = np.linalg.norm(jet.cross, axis=1) * cell
-    where = np.flatnonzero(~(area > DEGENERATE * size**2))
-    if len(where) == len(area):
-        raise ImpossibleGeometry(
-            "The target is a curve, not a surface: u and v move its points along the same line. "
-            "Let x, y and z depend on both."
-        )
-    if len(where):
-        raise ImpossibleGeometry(
-            f"At u = {u[where[0]]:.6g}, v = {v[where[0]]:.6g} the target shrinks to a point or a "
-            "line (a pole, a tip): facets there would have no area. Choose a range of u and v "
-            "without that place."
-        )
-
-
-def _grid(surface: Surface) -> list[Floats]:
-    share = np.linspace(0, 1, PLACES)
-    u, v = (low + share * (high - low) for low, high in (surface.u, surface.v))
-    return [*np.meshgrid(u, v, indexing="ij")]
-
-
 def _is_outward(surface: Surface) -> bool:
     """Tell whether P_u × P_v points away from what the target goes round.
 
@@ -96,7 +64,7 @@ def _is_outward(surface: Surface) -> bool:
     """
     if not (surface.is_u_periodic or surface.is_v_periodic):
         return True
-    u, v = (grid[:-1, :-1] for grid in _grid(surface))
+    u, v = (grid[:-1, :-1] for grid in grid_over(surface.u, surface.v))
     jet = surface.jet(u.ravel(), v.ravel())
     points, normals = (part.reshape(*u.shape, 3) for part in (jet.p, jet.cross))
     if surface.is_u_periodic and surface.is_v_periodic:
@@ -107,7 +75,7 @@ def _is_outward(surface: Surface) -> bool:
 
 def _is_revolution(surface: Surface) -> bool:
     """Tell whether the target turns about z once as u runs once, from a plane through z."""
-    u, v = _grid(surface)
+    u, v = grid_over(surface.u, surface.v)
     points = surface.points(u.ravel(), v.ravel()).reshape(*u.shape, 3)
     first, gap = points[0], LIKE * float(np.ptp(points.reshape(-1, 3), axis=0).max())
     radius = np.hypot(first[:, 0], first[:, 1])

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from foldmill import Stage
 from foldmill_plugins.waterbomb.build import Build
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.generate import from_zero, mm_per_unit
 from foldmill_plugins.waterbomb.params import WaterbombParams
 
@@ -21,7 +22,7 @@ def stages(params: WaterbombParams) -> tuple[Stage, ...]:
 
     Raises ImpossibleGeometry where there is no form.
     """
-    build = Build(params)
+    build = settled(params)
     scale = mm_per_unit(build)
     faces = build.topology.faces
     is_drawn = np.ones(faces.shape, bool)

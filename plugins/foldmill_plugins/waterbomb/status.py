@@ -40,6 +40,10 @@ class Status:
         )
         return tuple(name for name, failed in named if failed) or ("ok",)
 
+    def said(self) -> dict[str, Any]:
+        """Return the verdicts in one text, as they travel with a file."""
+        return {"verdict": ", ".join(self.verdicts)}
+
     def facts(self) -> dict[str, Any]:
         """Return verdicts and figures, for files and people."""
         return {"verdicts": list(self.verdicts), **vars(self)}
@@ -78,7 +82,7 @@ def overlap(state: Status) -> tuple[Finding, ...]:
         Severity.ERROR,
         "outline",
         "The form is developable, but laid flat its sheet lies upon itself.",
-        "Cut it into pieces, such as --pieces.columns 2, or take another depth.",
+        "Cut it into pieces by --pieces.auto true, or take another depth.",
     )
     return (finding,)
 
@@ -98,7 +102,6 @@ def _signs(pattern: CreasePattern, wanted: Codes) -> tuple[Finding, ...]:
         f"{len(wrong)} of {len(pattern.edges)} edges {'folds' if is_one else 'fold'} otherwise "
         f"than in a waterbomb tessellation; this one should be a "
         f"{names[Assignment(wanted[first])]} and folds by {pattern.fold_angles[first]:.3g}°.",
-        "Take another depth, or another n_u and n_v, so that cells are more nearly square; round a "
-        "torus an even n_v, which closes it.",
+        "Take another depth, or another n_u and n_v, so that cells are more nearly square.",
     )
     return (finding,)

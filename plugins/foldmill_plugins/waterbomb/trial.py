@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from foldmill import ImpossibleGeometry
 from foldmill_plugins.waterbomb.barrier import altitudes
-from foldmill_plugins.waterbomb.build import Build
 from foldmill_plugins.waterbomb.contact import Clashes
+from foldmill_plugins.waterbomb.depths import settled
 from foldmill_plugins.waterbomb.distance import Target
 from foldmill_plugins.waterbomb.hinge import Creases
 from foldmill_plugins.waterbomb.params import WaterbombParams
@@ -46,7 +46,7 @@ class Trial:
 
 def tried(params: WaterbombParams, n_u: int, n_v: int) -> Trial:
     """Return what becomes of the parameters with n_u × n_v bases; a failure is not sound."""
-    build = Build(params.model_copy(update={"n_u": n_u, "n_v": n_v}))
+    build = settled(params.model_copy(update={"n_u": n_u, "n_v": n_v}))
     try:
         found = build.developed
     except ImpossibleGeometry:

@@ -24,11 +24,12 @@ from foldmill.kernels import (
     columns,
     is_compiling,
     judge,
-    tables,
+    judging,
 )
 from foldmill.kernels import jit as shim
 from foldmill.kernels import strips as ready
-from foldmill.kernels.tables import judge_with, wheels
+from foldmill.kernels.judging import judge_with
+from foldmill.kernels.tables import wheels
 
 Floats = NDArray[np.float64]
 NEEDS_NUMBA = pytest.mark.skipif(not is_compiling(), reason="numba is not installed")
@@ -93,14 +94,14 @@ def test_compiled_and_over_columns_are_one_on_many_blocks_of_rows() -> None:
     assert_alike(found, judge_with(columns.judge, strips, Limits()))
 
 
-@pytest.fixture(params=[0, tables.COMPILED_FROM])
+@pytest.fixture(params=[0, judging.COMPILED_FROM])
 def both(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Judge few strips compiled, and then over columns."""
-    monkeypatch.setattr(tables, "COMPILED_FROM", request.param)
+    monkeypatch.setattr(judging, "COMPILED_FROM", request.param)
 
 
 def test_without_numba_the_columns_are_used(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tables, "COMPILED_FROM", 0)
+    monkeypatch.setattr(judging, "COMPILED_FROM", 0)
     strips = tubes(50, 5)
     usual = judge(strips)
     monkeypatch.setenv(SWITCH, "1")
@@ -212,10 +213,10 @@ def test_few_that_are_left_of_many_configurations_are_judged_as_the_many(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     used: list[str] = []
-    monkeypatch.setattr(tables, "judge_with", lambda loop, *_: used.append(loop.__module__))
+    monkeypatch.setattr(judging, "judge_with", lambda loop, *_: used.append(loop.__module__))
     strips = tubes(20, 11)
     judge(strips)
-    judge(strips, among=tables.COMPILED_FROM)
+    judge(strips, among=judging.COMPILED_FROM)
     assert [each.rpartition(".")[2] for each in used] == ["columns", "strips"]
 
 

@@ -117,8 +117,8 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["plan", "a.fold", "-o", "job", "--to", "dwg"], "There is no format 'dwg'"),
         (["verify", "nowhere"], "nowhere"),
         (["send", "nowhere", "--port", "sim://generic-hpgl-600"], "nowhere"),
-        (["simulate"], "--pty LINK or --tcp PORT"),
-        (["simulate", "--tcp", "70000"], "Input should be less than or equal to 65535"),
+        (["simulate"], "--pty LINK, --tcp PORT or --rfc2217 PORT"),
+        (["simulate", "--tcp", "70000"], "'70000' is no port number from 1 to 65535"),
         (["plan", "a.fold", "-o", "bad.fold"], "bad.fold: file exists."),
         (["design", "rotational", "-o", "bad.fold/x.fold"], "bad.fold"),
         (["report", "rotational", "weight"], "There is no report of rotational 'weight'"),
@@ -287,7 +287,7 @@ def test_a_port_that_is_not_there_is_told_before_a_sheet_is_loaded(
 def test_an_unconfirmed_program_ends_the_job(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
     foldmill("plan", "a.fold", "-o", "job")
-    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?silent_after=6500", "--yes")
+    told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?fault=silence@6500", "--yes")
     assert told.code != 0
     assert "2-front-score" not in told.out
 

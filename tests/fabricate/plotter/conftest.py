@@ -16,10 +16,10 @@ from foldmill_fabricate.plotter.simulator.machine import Simulator
 
 @pytest.fixture
 def machine() -> Callable[..., Machine]:
-    """A generic cutter with other serial or motion settings."""
-    base: Machine = installed().get(MACHINES, "machine", "generic-hpgl-600")
+    """A generic cutter, or another machine, with other serial or motion settings."""
 
-    def changed(**settings: Any) -> Machine:
+    def changed(slug: str = "generic-hpgl-600", **settings: Any) -> Machine:
+        base: Machine = installed().get(MACHINES, "machine", slug)
         moving = {
             key: settings.pop(key)
             for key in list(settings)
@@ -33,6 +33,18 @@ def machine() -> Callable[..., Machine]:
         )
 
     return changed
+
+
+@pytest.fixture
+def told() -> Callable[..., bytes]:
+    """Write to a simulator, and return what comes back within some seconds."""
+
+    def answered(simulator: Simulator, data: bytes, seconds: float = 30.0) -> bytes:
+        simulator.write(data)
+        simulator.clock.sleep(seconds)
+        return simulator.read()
+
+    return answered
 
 
 @pytest.fixture

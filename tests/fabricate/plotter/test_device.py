@@ -14,7 +14,7 @@ from foldmill_fabricate.hooks import MACHINES
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plotter.errors import PlotterError
-from foldmill_fabricate.plotter.simulator.device import Faults
+from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
 Make = Callable[..., Machine]
@@ -50,6 +50,7 @@ def told(simulator: Simulator, data: bytes, seconds: float = 30.0) -> bytes:
         (b"\x1b.Q\x1b.E", b"11\r"),
         (b"\x1b.I8x\x1b.E", b"12\r"),
         (b"\x1b.I99999:\x1b.E", b"13\r"),
+        (b"\x1b.M10;;;321:\x1b.E", b"13\r"),
         (b"\x1b.M" + b"1;" * 12 + b"1:\x1b.E", b"14\r"),
     ],
 )
@@ -228,7 +229,7 @@ def test_another_baud_rate_garbles_every_byte(machine: Make) -> None:
 
 
 def test_a_dead_machine_neither_moves_nor_answers(machine: Make) -> None:
-    simulator = Simulator(machine(), faults=Faults(silent_after=9))
+    simulator = Simulator(machine(), faults=parse("silence@9"))
     assert told(simulator, b"PU50,50;PU90,90;OA;\x1b.B") == b""
     assert simulator.device.carriage.at == (50, 50)
     with pytest.raises(PlotterError, match="silent"):

@@ -13,7 +13,7 @@ from foldmill_fabricate.plotter.clock import VirtualClock
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError, ProgramRefused, Stopped
 from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Progress, Status, send
-from foldmill_fabricate.plotter.simulator.device import Faults
+from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
 Make = Callable[..., Machine]
@@ -81,7 +81,7 @@ def test_a_machine_that_does_not_answer_ends_as_sent_not_confirmed(
 
 def test_silence_at_the_end_is_not_taken_for_success(machine: Make, plugged: Plug) -> None:
     dying = machine(handshake="xon-xoff")
-    simulator = Simulator(dying, faults=Faults(silent_after=len(SQUARE) - 9))
+    simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) - 9}"))
     with open_port(plugged(simulator), dying) as port:
         delivery = send(SQUARE, port, dying)
     assert delivery.status is Status.UNCONFIRMED
@@ -109,7 +109,7 @@ def test_a_tool_that_stands_elsewhere_is_a_fault(machine: Make, plugged: Plug) -
 def test_a_machine_gone_silent_ends_with_a_sentence_by_a_deadline(
     dead_after: int, machine: Make, plugged: Plug
 ) -> None:
-    simulator = Simulator(machine(), faults=Faults(silent_after=dead_after))
+    simulator = Simulator(machine(), faults=parse(f"silence@{dead_after}"))
     with open_port(plugged(simulator), machine()) as port:
         with pytest.raises(NoAnswer, match=r"does not answer at 9600|stopped answering after"):
             send(LONG, port, machine())
@@ -117,7 +117,7 @@ def test_a_machine_gone_silent_ends_with_a_sentence_by_a_deadline(
 
 
 def test_a_machine_that_stands_still_is_given_up(machine: Make, plugged: Plug) -> None:
-    simulator = Simulator(machine(), faults=Faults(slower=1e4))
+    simulator = Simulator(machine(), faults=parse("slow@0x10000"))
     with open_port(plugged(simulator), machine()) as port:
         with pytest.raises(NoAnswer, match=r"not got beyond instruction \d+ of"):
             send(LONG, port, machine())

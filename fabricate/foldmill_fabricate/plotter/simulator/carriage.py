@@ -1,38 +1,16 @@
-"""The mechanics: what each HP-GL unit does, how long it takes, and what it answers.
+"""The mechanics: position, tool and pen of a machine, what they leave on a sheet, and when.
 
-Instructions and replies: HP 7470A and 7475A manuals; FS as on cutters. Anything else is error 1.
+Languages differ in how they say a motion; what happens then is the same, and stands here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import hypot
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet, Step
-from foldmill_fabricate.plotter.simulator.parser import (
-    MOVES,
-    NO_ERROR,
-    OUT_OF_RANGE,
-    UNKNOWN,
-    WRONG_COUNT,
-    Unit,
-)
 from foldmill_fabricate.toolpath.motion import Pace, move_seconds
-
-_P1_P2 = "250,279,10250,7479"
-_MOST_TOOLS = 99
-_FASTEST = 127.9999
-"""cm/s: the largest VS of HP-GL."""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How long a unit keeps the machine busy, and what it answers."""
-
-    seconds: float = 0.0
-    reply: str | None = None
 
 
 @dataclass
@@ -41,8 +19,10 @@ class Tally:
 
     units: int = 0
     """coordinate pairs and other instructions executed"""
+    strokes: int = 0
+    """strokes ended: the tool was lifted, or another took its place"""
     errors: int = 0
-    """HP-GL errors, whether asked for by OE or not"""
+    """errors in the program, whether asked for or not"""
     second_in: int = 0
     """IN in the middle of a job: some machines cancel it"""
     without_tool: int = 0
@@ -51,175 +31,134 @@ class Tally:
     """s"""
 
 
+@dataclass(frozen=True)
+class Line:
+    """The straight line that was begun last."""
+
+    start: Step
+    end: Step
+    lead: float
+    """s of lowering or lifting before it"""
+    seconds: float
+    """s without that"""
+
+
 class Carriage:
-    """Pen, tool, position and error state of a machine, drawing on a sheet."""
+    """Pen, tool, position and error register of a machine, drawing on a sheet."""
 
     def __init__(self, machine: Machine, sheet: DrawnSheet) -> None:
         self.machine, self.sheet, self.tally = machine, sheet, Tally()
         self.at: Step = (0, 0)
         self.tool = 0
         self.force: float | None = None
+        """gf; None where the program sets none"""
+        self.setting = ""
+        """What else a stroke is made with, in words."""
+        self.speed = machine.motion.travel_speed
+        """mm/s with the tool down"""
         self.down = False
+        self.drawn_since_in = False
+        self.error = 0
+        """Error register."""
+        self.line: Line | None = None
         self._pace = Pace(machine.motion)
-        self._initialised = 8  # in the status byte until OS has told it
-        self._drawn_since_in = False
-        self._defaults()
-        self.error = NO_ERROR
-        self._doings: dict[str, Callable[[tuple[float, ...]], Outcome]] = {
-            "IN": self._initialise,
-            "DF": self._default,
-            "SP": self._select,
-            "PG": self._page,
-            "LB": lambda _: Outcome(),
-        }
-        if machine.dialect.speed:
-            self._doings["VS"] = self._set_speed
-        if machine.dialect.force:
-            self._doings["FS"] = self._set_force
-        self._answers: dict[str, Callable[[], str]] = {
-            "OA": lambda: f"{self.at[0]},{self.at[1]},{int(self.down)}",
-            "OC": lambda: f"{self.at[0]},{self.at[1]},{int(self.down)}",
-            "OE": self._tell_error,
-            "OF": lambda: "{0},{0}".format(round(machine.axes.units_per_mm)),
-            "OH": self._limits,
-            "OI": lambda: machine.slug,
-            "OO": lambda: "0,1,0,0,1,0,0,0",
-            "OP": lambda: _P1_P2,
-            "OS": self._tell_status,
-            "OW": self._limits,
-        }
+        self._needs_tool = machine.tools.change == "select" and machine.language == "hpgl"
 
-    def execute(self, unit: Unit) -> Outcome:
-        """Do it; wrong units set the error and do nothing."""
-        self.tally.units += 1
-        if unit.error:
-            return self._wrong(unit.error)
-        if unit.name in MOVES:
-            outcome = self._move(unit.name, unit.numbers)
-        elif unit.name in self._answers:
-            outcome = self._answer(unit)
-        elif unit.name in self._doings:
-            outcome = self._doings[unit.name](unit.numbers)
-        else:
-            return self._wrong(UNKNOWN)
-        self.tally.moving += outcome.seconds
-        return outcome
-
-    def _wrong(self, error: int) -> Outcome:
+    def wrong(self, error: int) -> None:
+        """Note an error in the program."""
         self.error = error
         self.tally.errors += 1
-        return Outcome()
 
-    def _defaults(self) -> None:
-        self.relative = False
-        self.speed = self.machine.motion.travel_speed
+    def begin(self) -> None:
+        """Forget the line before: something else is done now."""
+        self.line = None
 
-    def _initialise(self, numbers: tuple[float, ...]) -> Outcome:
-        if numbers:
-            return self._wrong(WRONG_COUNT)
-        self.tally.second_in += self._drawn_since_in and self.tool != 0
-        seconds = self._set_pen(False)
-        self._defaults()
-        self.force, self.error, self._initialised, self._drawn_since_in = None, NO_ERROR, 8, False
-        return Outcome(seconds)
-
-    def _default(self, numbers: tuple[float, ...]) -> Outcome:
-        if numbers:
-            return self._wrong(WRONG_COUNT)
-        self._defaults()
-        return Outcome()
-
-    def _select(self, numbers: tuple[float, ...]) -> Outcome:
-        if len(numbers) > 1:
-            return self._wrong(WRONG_COUNT)
-        tool = int(numbers[0]) if numbers else 0
-        if not 0 <= tool <= _MOST_TOOLS:
-            return self._wrong(OUT_OF_RANGE)
+    def select(self, tool: int) -> float:
+        """Take another tool, or 0 for none; return the time, s."""
         if tool == self.tool:
-            return Outcome()
-        self.sheet.lift()
-        self.tool = tool
-        return Outcome(self.machine.motion.tool_time)
-
-    def _page(self, numbers: tuple[float, ...]) -> Outcome:
-        return self._wrong(WRONG_COUNT) if len(numbers) > 1 else Outcome(self._set_pen(False))
-
-    def _set_speed(self, numbers: tuple[float, ...]) -> Outcome:
-        if len(numbers) > 2:
-            return self._wrong(WRONG_COUNT)
-        if numbers and not 0 < numbers[0] <= _FASTEST:
-            return self._wrong(OUT_OF_RANGE)
-        self.speed = numbers[0] * 10 if numbers else self.machine.motion.travel_speed
-        return Outcome()
-
-    def _set_force(self, numbers: tuple[float, ...]) -> Outcome:
-        if len(numbers) > 2:
-            return self._wrong(WRONG_COUNT)
-        if numbers and numbers[0] < 0:
-            return self._wrong(OUT_OF_RANGE)
-        self.force = numbers[0] if numbers else None
-        return Outcome()
-
-    def _move(self, name: str, numbers: tuple[float, ...]) -> Outcome:
-        seconds = 0.0
-        if name in ("PA", "PR"):
-            self.relative = name == "PR"
-        else:
-            seconds = self._set_pen(name == "PD")
-        return Outcome(seconds + self._go(numbers)) if numbers else Outcome(seconds)
-
-    def _go(self, numbers: tuple[float, ...]) -> float:
-        x, y = (int(each) for each in numbers)
-        to = (self.at[0] + x, self.at[1] + y) if self.relative else (x, y)
-        axes, motion = self.machine.axes, self.machine.motion
-        if not all(axes.lowest <= each <= axes.highest for each in to):
-            self._wrong(OUT_OF_RANGE)
             return 0.0
-        dx, dy = ((new - old) / axes.units_per_mm for new, old in zip(to, self.at, strict=True))
-        self.at, before = to, self.at
-        if not self.down:
-            length = hypot(dx, dy)
-            return float(move_seconds(length, motion.travel_speed, motion.acceleration))
-        self._mark(before)
-        self.sheet.move(to)
-        return self._pace.go_on(dx, dy, self.speed)
+        self._end_stroke()
+        self.tool = tool
+        return self.machine.motion.tool_time
 
-    def _set_pen(self, down: bool) -> float:
+    def set_pen(self, down: bool) -> float:
+        """Lower or lift the tool; return the time, s."""
         if down == self.down:
             return 0.0
         self.down = down
         self._pace.stop()
         if down:
-            self._mark(self.at)
+            self.mark(self.at)
         else:
-            self.sheet.lift()
+            self._end_stroke()
         return self.machine.motion.lift_time
 
-    def _mark(self, at: Step) -> None:
+    def move(self, to: Step, lead: float = 0.0, travel: float | None = None) -> float:
+        """Go there; return the time, s, without ``lead``, which was spent on the tool before.
+
+        travel : mm/s with the tool up, where it is not the machine's fastest.
+        """
+        units, motion = self.machine.axes.units_per_mm, self.machine.motion
+        dx, dy = (to[0] - self.at[0]) / units, (to[1] - self.at[1]) / units
+        before, self.at = self.at, to
+        if self.down:
+            self.mark(before)
+            self.sheet.move(to)
+            seconds = self._pace.go_on(dx, dy, self.speed)
+        else:
+            speed = travel or motion.travel_speed
+            seconds = float(move_seconds(hypot(dx, dy), speed, motion.acceleration))
+        self.line = Line(before, to, lead, seconds)
+        return seconds
+
+    def mark(self, at: Step) -> None:
         """The tool is in the sheet there, if there is a tool."""
-        self._drawn_since_in = True
-        if self.tool or self.machine.tools.change == "operator":
-            self.sheet.lower(at, self.tool, self.speed, self.force)
+        self.drawn_since_in = True
+        if self.tool or not self._needs_tool:
+            self.sheet.lower(at, self.tool, self.speed, self.force, self.setting)
         else:
             self.tally.without_tool += 1
 
-    def _answer(self, unit: Unit) -> Outcome:
-        if unit.numbers:
-            return self._wrong(WRONG_COUNT)
-        return Outcome(reply=self._answers[unit.name]())
+    def halt(self, spent: float) -> None:
+        """Stand where the line is after ``spent`` seconds of what was begun last."""
+        if self.line:
+            part = (spent - self.line.lead) / self.line.seconds if self.line.seconds else 1.0
+            self._stand(self._between(min(1.0, max(0.0, part))))
 
-    def _tell_error(self) -> str:
-        error, self.error = self.error, NO_ERROR
-        return str(error)
+    def go_on(self) -> None:
+        """Draw the rest of a line that was halted."""
+        if self.line:
+            self._stand(self.line.end)
 
-    def _tell_status(self) -> str:
-        status = int(self.down) + self._initialised + 16 + 32 * bool(self.error)
-        self._initialised = 0
-        return str(status)
+    def fail(self) -> None:
+        """Lose the mains: the spring lifts the tool, and nobody knows any more where it is."""
+        self._end_stroke()
+        self.down = False
+        self._pace.stop()
 
-    def _limits(self) -> str:
-        bed, axes = self.machine.bed, self.machine.axes
-        sides = (bed.length, bed.width) if axes.swap else (bed.width, bed.length)
-        low = max(axes.lowest, 0)
-        x, y = (min(axes.highest, round(side * axes.units_per_mm)) for side in sides)
-        return f"{low},{low},{x},{y}"
+    def home(self) -> None:
+        """Begin anew at the origin with nothing set, as after switching on."""
+        self.at, self.tool, self.force, self.setting, self.error = (0, 0), 0, None, "", 0
+        self.speed, self.drawn_since_in, self.line = self.machine.motion.travel_speed, False, None
+
+    def place(self, spent: float) -> tuple[float, float]:
+        """Return where it is after ``spent`` seconds of what was begun last, steps."""
+        if not self.line or not self.line.seconds:
+            return self.at
+        part = min(1.0, max(0.0, (spent - self.line.lead) / self.line.seconds))
+        (x, y), (u, v) = self.line.start, self.line.end
+        return x + part * (u - x), y + part * (v - y)
+
+    def _between(self, part: float) -> Step:
+        assert self.line is not None
+        (x, y), (u, v) = self.line.start, self.line.end
+        return round(x + part * (u - x)), round(y + part * (v - y))
+
+    def _stand(self, at: Step) -> None:
+        self.at = at
+        if self.down:
+            self.sheet.shift(at)
+
+    def _end_stroke(self) -> None:
+        self.tally.strokes += self.sheet.under_way
+        self.sheet.lift()

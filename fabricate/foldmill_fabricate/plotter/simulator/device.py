@@ -1,246 +1,297 @@
-"""The machine behind the line: buffer, device control, flow control, execution in parse order."""
+"""The machine behind the line: its buffer, its time, its mains and its faults.
+
+What the bytes mean is the business of its firmware; this is the frame that all languages share.
+"""
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 from math import inf
+from random import Random
 
 from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.plotter.simulator.buffer import InputBuffer, Traffic
 from foldmill_fabricate.plotter.simulator.carriage import Carriage
-from foldmill_fabricate.plotter.simulator.control import BAD_LETTER, Command, ControlChannel
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet
-from foldmill_fabricate.plotter.simulator.parser import ENDS, Parser
+from foldmill_fabricate.plotter.simulator.faults import Fault, Schedule, Trouble
+from foldmill_fabricate.plotter.simulator.firmware import Firmware
+from foldmill_fabricate.plotter.simulator.gpgl import GpglFirmware
+from foldmill_fabricate.plotter.simulator.grbl import GrblFirmware
+from foldmill_fabricate.plotter.simulator.hp import FRAMING, HpFirmware
+from foldmill_fabricate.plotter.simulator.hpgl import LEVER_UP
+from foldmill_fabricate.plotter.simulator.quirks import Quirk, habits
 from foldmill_fabricate.plotter.simulator.uart import Transmitter
 
-XON, XOFF = 0x11, 0x13
-OVERLAP, FRAMING, OVERFLOW = 10, 15, 16
-"""I/O errors, as ESC.E answers them."""
-
-_ANSWER_TIME = 0.002
-"""s from a question's last byte to the answer's first."""
-_BLOCK = 80
-"""Default block size of ESC.I, bytes."""
-
-
-@dataclass(frozen=True)
-class Faults:
-    """What is wrong with the simulated machine."""
-
-    silent_after: int | None = None
-    """It neither reads, moves nor answers once it has received that many bytes."""
-    slower: float = 1.0
-    """How many times longer than its profile says every motion takes."""
-
-
-@dataclass
-class Traffic:
-    """What came in."""
-
-    received: bytearray = field(default_factory=bytearray)
-    """every byte, device control included"""
-    program: bytearray = field(default_factory=bytearray)
-    """HP-GL only, the dropped bytes included"""
-    overruns: int = 0
-    """bytes dropped because the buffer was full"""
-    fullest: int = 0
-    """highest occupancy of the buffer, bytes"""
-    split: int = 0
-    """times ESC.B came in the middle of an instruction, which real machines garble"""
-    errors: Counter[int] = field(default_factory=Counter)
-    """I/O errors by number"""
+_DEAD = frozenset({Trouble.SILENCE, Trouble.POWER})
+_FLIPPED = 0x04
+"""The bit that noise flips."""
 
 
 class Device:
-    """A plotter with a byte-accurate input buffer. Times are seconds of the clock it is run by."""
+    """A machine with a byte-accurate input buffer. Times are seconds of the clock it is run by."""
 
     def __init__(
-        self, machine: Machine, sheet: DrawnSheet, byte_time: float, speed_up: float, faults: Faults
+        self,
+        machine: Machine,
+        sheet: DrawnSheet,
+        byte_time: float,
+        speed_up: float = 1.0,
+        faults: Iterable[Fault] = (),
+        quirks: Iterable[Quirk] = (),
     ) -> None:
-        self.machine, self.faults, self.traffic = machine, faults, Traffic()
-        self.size = machine.serial.buffer
+        self.machine, self.traffic = machine, Traffic()
+        self.buffer = InputBuffer(machine.serial.buffer, self.traffic)
         self.carriage = Carriage(machine, sheet)
         self.out = Transmitter(byte_time)
+        self.schedule = Schedule(faults)
+        self.active: set[Trouble] = set()
+        """Faults that are there now."""
         self.paused = False
-        self._pace = faults.slower / speed_up
-        self._buffer = bytearray()
-        self._parser, self._control = Parser(), ControlChannel()
-        self._busy_until = -inf
-        self._on = True
-        self._io_error = 0
-        self._size_asked = self._inside = False
-        self._held = False
-        self._reset_handshake()
+        self.now = 0.0
+        self._rate = 1 / speed_up
+        self._slower = self._scale = 1.0
+        """How many times longer things take; what is under way took its scale when it began."""
+        self._began, self._busy_until = -inf, -inf
+        self._rest: dict[str, float] = {}
+        """Why the carriage is halted within a line → s of that line still to come."""
+        self._damage: dict[Trouble, int] = {}
+        self.firmware = self._firmware(frozenset(quirks) | habits(machine))
+
+    def _firmware(self, quirks: frozenset[Quirk]) -> Firmware:
+        if self.machine.language == "gcode":
+            return GrblFirmware(self)
+        return GpglFirmware(self) if self.machine.language == "gp-gl" else HpFirmware(self, quirks)
+
+    @property
+    def size(self) -> int:
+        """Bytes that the buffer holds."""
+        return self.buffer.size
 
     @property
     def free(self) -> int:
         """Bytes that the buffer still takes."""
-        return self.size - len(self._buffer)
+        return self.buffer.size - len(self.buffer.data)
 
     @property
     def holds(self) -> bool:
-        """Whether it has sent XOFF and no XON since."""
-        return self._held
+        """Whether it has said "wait" by a character and not "go on" since."""
+        return self.firmware.holds
 
     @property
     def idle(self) -> bool:
-        """Whether nothing moves."""
+        """Whether nothing moves or is halted on its way."""
         return self._busy_until == -inf
 
     @property
+    def halted(self) -> bool:
+        """Whether the carriage stands within a line."""
+        return bool(self._rest)
+
+    @property
     def dead(self) -> bool:
-        """Whether it has gone silent."""
-        limit = self.faults.silent_after
-        return limit is not None and len(self.traffic.received) >= limit
+        """Whether it neither moves nor hears."""
+        return bool(self.active) and not self.active.isdisjoint(_DEAD)
+
+    @property
+    def powered(self) -> bool:
+        """Whether it has power."""
+        return Trouble.POWER not in self.active
+
+    @property
+    def connected(self) -> bool:
+        """Whether its cable is plugged in."""
+        return Trouble.DISCONNECT not in self.active
+
+    @property
+    def lever_up(self) -> bool:
+        """Whether the pinch wheels are off the sheet."""
+        return Trouble.LEVER in self.active
+
+    @property
+    def ready(self) -> bool:
+        """Level of the line by which it says that it has room."""
+        return self.powered and self.firmware.ready
+
+    @property
+    def next_own_event(self) -> float:
+        """When something happens that is under way, s; infinite for never."""
+        busy = self._busy_until if self._busy_until > -inf and not self._rest else inf
+        if not self.active:
+            return min(busy, self.out.next_event)
+        ends = self.schedule.next_end
+        return ends if self.dead else min(busy, self.out.next_event, ends)
 
     @property
     def next_event(self) -> float:
-        """When something happens here by itself, s."""
-        busy = self._busy_until if self._busy_until > -inf else inf
-        return inf if self.dead else min(busy, self.out.next_event)
+        """When something happens here by itself, a fault to come included, s."""
+        own = self.next_own_event
+        return min(own, self.schedule.next_begin) if self.schedule.waiting else own
+
+    @property
+    def spent(self) -> float:
+        """Seconds of the machine's own time since it began what it does."""
+        rest = next(iter(self._rest.values()), max(0.0, self._busy_until - self.now))
+        return (self._busy_until - self._began - rest) / self._scale
+
+    @property
+    def lasting(self) -> float:
+        """Seconds of the machine's own time that what it does takes in all."""
+        return 0.0 if self.idle else (self._busy_until - self._began) / self._scale
 
     def happen(self, now: float) -> int | None:
         """Do what is due; return a byte that has reached the host, or None."""
+        self.now = now
+        if self.schedule.waiting or self.active:
+            self._meet(now)
+        if self.dead:
+            return None
         sent = self.out.happen(now) if self.out.next_event <= now else None
-        if -inf < self._busy_until <= now:
-            self._work(now)
-        return sent
+        if -inf < self._busy_until <= now and not self._rest:
+            self.work(now)
+        return None if Trouble.MUTE in self.active else sent
 
     def receive(self, byte: int, now: float) -> None:
         """Take one byte off the line."""
+        self.now = now
         if self.dead:
             return
         self.traffic.received.append(byte)
-        heard = self._control.feed(byte)
-        if isinstance(heard, Command):
-            self._obey(heard, now)
-        elif heard is not None and self._on:
-            self._store(heard, now)
+        heard = self._damaged(byte) if self._damage else byte
+        if heard is not None:
+            self.firmware.hear(heard, now)
+        if self.schedule.waiting:
+            self._meet(now)
 
     def garble(self) -> None:
         """Note a byte that came at another rate than the machine's."""
-        self._io_fault(FRAMING)
+        self.firmware.fault(FRAMING)
+
+    def fail(self, faults: Iterable[Fault], now: float) -> None:
+        """Let more go wrong, at once where its place has been passed."""
+        self.now = now
+        self.schedule.add(faults)
+        self._meet(now)
 
     def resume(self, now: float) -> None:
         """Go on after a pause at the machine."""
         self.paused = False
-        self._work(now)
+        self.work(now)
 
-    def _store(self, byte: int, now: float) -> None:
-        self.traffic.program.append(byte)
-        self._inside = byte not in b";\x03" and (self._inside or byte > 0x20)
-        if not self.free:
-            self.traffic.overruns += 1
-            self._io_fault(OVERFLOW)
-            return
-        self._buffer.append(byte)
-        self.traffic.fullest = max(self.traffic.fullest, len(self._buffer))
-        if byte in ENDS and self._busy_until == -inf:
-            self._work(now)
-        self._hold(now)
-
-    def _work(self, now: float) -> None:
-        """Begin whatever can begin. A unit frees its bytes when it begins: it is decoded then."""
-        if self._busy_until <= now:
+    def work(self, now: float) -> None:
+        """Begin whatever can begin."""
+        if -inf < self._busy_until <= now and not self._rest:
             self._busy_until = -inf
-        while self._busy_until == -inf and not self.paused:
-            unit = self._parser.take(self._buffer)
-            if unit is None:
+            self.firmware.ended(now)
+        while self._busy_until == -inf and not self._stands:
+            seconds = self.firmware.begin(now)
+            if seconds is None:
                 break
-            outcome = self.carriage.execute(unit)
-            if outcome.reply is not None:
-                self._say(outcome.reply, now)
-            if outcome.seconds > 0:
-                self._busy_until = now + outcome.seconds * self._pace
-        self._let_go(now)
-        if self._size_asked and not self._buffer:
-            self._size_asked = False
-            self._say(str(self.size), now)
+            if seconds > 0:
+                self._began, self._scale = now, self._rate * self._slower
+                self._busy_until = now + seconds * self._scale
+            else:
+                self.firmware.ended(now)
+            if self.schedule.waiting:
+                self._foresee(now)
+        self.firmware.settle(now)
+
+    def halt(self, why: str, now: float) -> None:
+        """Stand where the carriage is, within a line if it must be."""
+        moving = self._busy_until > now
+        if moving and not self._rest:
+            self.carriage.halt(self.spent)
+        self._rest[why] = next(iter(self._rest.values()), max(0.0, self._busy_until - now))
+
+    def go_on(self, why: str, now: float) -> None:
+        """Go on, unless there is another reason to stand."""
+        rest = self._rest.pop(why, None)
+        if rest is None or self._rest:
+            return
+        if self._busy_until > -inf:
+            self.carriage.go_on()
+            self._began += now + rest - self._busy_until
+            self._busy_until = now + rest
+        self.work(now)
+
+    def drop(self) -> None:
+        """Give up what is being done; the carriage stands where it is."""
+        if self._busy_until > self.now and not self._rest:
+            self.carriage.halt(self.spent)
+        self.carriage.begin()
+        self._busy_until = -inf
+        self._rest.clear()
 
     @property
-    def _speaking(self) -> bool:
-        return bool(self.out.queue) or self.out.sending or self._size_asked
+    def _stands(self) -> bool:
+        return self.paused or bool(self._rest) or self.lever_up or self.dead
 
-    def _say(self, text: str, now: float) -> None:
-        self.out.not_before = now + _ANSWER_TIME
-        self.out.put(text.encode() + b"\r", now)
+    def _foresee(self, now: float) -> None:
+        """Place in time what shall happen within this line, and meet what is due by strokes."""
+        line = self.carriage.line
+        if line and self.carriage.down and self._busy_until > now:
+            begins, seconds = now + line.lead * self._scale, line.seconds * self._scale
+            self.schedule.line_begins(self.carriage.tally.strokes, begins, seconds)
+        self._meet(now)
 
-    def _answer(self, text: str, now: float) -> None:
-        """Answer device control; a question while an answer is under way is error 10."""
-        if self._speaking:
-            self._io_fault(OVERLAP)
+    def _meet(self, now: float) -> None:
+        for fault in self.schedule.over(now):
+            self._end(fault, now)
+        received, strokes = len(self.traffic.received), self.carriage.tally.strokes
+        for fault in self.schedule.due(received, strokes, now):
+            self._strike(fault, now)
+
+    def _strike(self, fault: Fault, now: float) -> None:
+        trouble = fault.trouble
+        if trouble is Trouble.GARBAGE:
+            self.out.put(Random(str(fault)).randbytes(int(fault.amount)), now)
+        elif trouble is Trouble.OVERFLOW:
+            self.buffer.dropping += int(fault.amount)
+        elif trouble in (Trouble.NOISE, Trouble.FRAMING):
+            self._damage[trouble] = self._damage.get(trouble, 0) + int(fault.amount)
         else:
-            self._say(text, now)
+            self._begin(fault, now)
 
-    def _io_fault(self, error: int) -> None:
-        self._io_error = error
-        self.traffic.errors[error] += 1
+    def _begin(self, fault: Fault, now: float) -> None:
+        trouble = fault.trouble
+        if trouble is Trouble.STALL:
+            self.halt(trouble, now)
+        elif trouble is Trouble.HOLD:
+            self.firmware.wait(True, now)
+        elif trouble is Trouble.LEVER:
+            self.carriage.error = LEVER_UP
+        elif trouble is Trouble.SLOW:
+            self._slower = fault.amount
+        elif trouble is Trouble.POWER:
+            self._lose_power()
+        self.active.add(trouble)
 
-    def _obey(self, command: Command, now: float) -> None:
-        if command.error:
-            self._io_fault(command.error)
-        elif not self._on and command.letter not in "(Y":
-            return
-        elif command.letter in "BELO":
-            self._tell(command.letter, now)
-        elif command.letter == "J":
-            self.out.queue.clear()
-            self._size_asked = False
-        elif command.letter == "K":
-            self._forget(now)
-        elif command.letter in "@HIMNR":
-            self._agree(command)
-        elif command.letter in "(Y)Z":
-            self._on = command.letter in "(Y"
-        else:
-            self._io_fault(BAD_LETTER)
+    def _end(self, fault: Fault, now: float) -> None:
+        trouble = fault.trouble
+        self.active.discard(trouble)
+        if trouble is Trouble.STALL:
+            self.go_on(trouble, now)
+        elif trouble is Trouble.HOLD:
+            self.firmware.wait(False, now)
+        elif trouble is Trouble.SLOW:
+            self._slower = 1.0
+        elif trouble is Trouble.POWER:
+            self.firmware.start(now)
+        self.work(now)
 
-    def _tell(self, letter: str, now: float) -> None:
-        if letter == "B":
-            self.traffic.split += self._inside
-            self._answer(str(self.free), now)
-        elif letter == "E":
-            self._answer(str(self._io_error), now)
-            self._io_error = 0
-        elif letter == "O":
-            self._answer(str((0 if self._buffer else 8) + 16 * self.paused), now)
-        elif self._speaking:
-            self._io_fault(OVERLAP)
-        elif self._buffer:
-            self._size_asked = True  # answered once the buffer is empty
-        else:
-            self._say(str(self.size), now)
+    def _lose_power(self) -> None:
+        self.drop()
+        self.carriage.fail()
+        self.buffer.discard()
+        self.out.silence()
+        self.carriage.home()
 
-    def _forget(self, now: float) -> None:
-        """ESC.K: drop what is not being executed."""
-        self._buffer.clear()
-        self._parser.reset()
-        self._inside = False
-        self._work(now)
-
-    def _agree(self, command: Command) -> None:
-        """Set a handshake from the line: XON/XOFF by ESC.I and ESC.N; the rest is taken as read."""
-        values = command.parameters + (0,) * 12
-        if command.letter == "R":
-            self._reset_handshake()
-        elif command.letter == "I" and not values[1]:
-            self._xon = values[2]
-            if self._xon:
-                self._hold_below = values[0] or _BLOCK
-        elif command.letter == "N":
-            self._xoff = values[1]
-
-    def _reset_handshake(self) -> None:
-        built_in = self.machine.serial.handshake == "xon-xoff"
-        self._xon, self._xoff = (XON, XOFF) if built_in else (0, 0)
-        self._hold_below = min(128, self.size // 4)
-
-    def _hold(self, now: float) -> None:
-        if self._xon and self._xoff and not self._held and self.free <= self._hold_below:
-            self._held = True
-            self.out.put_first(self._xoff, now)
-
-    def _let_go(self, now: float) -> None:
-        if self._held and self.free >= max(self.size // 2, self._hold_below + 1):
-            self._held = False
-            self.out.put_first(self._xon, now)
+    def _damaged(self, byte: int) -> int | None:
+        """Return what is left of a byte on a bad line."""
+        trouble = next(iter(self._damage))
+        self._damage[trouble] -= 1
+        if self._damage[trouble] <= 0:
+            del self._damage[trouble]
+        if trouble is Trouble.NOISE:
+            return byte ^ _FLIPPED
+        self.firmware.fault(FRAMING)
+        return None

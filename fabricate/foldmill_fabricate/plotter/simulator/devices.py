@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from typing import TypeVar
 from urllib.parse import parse_qsl, urlsplit
 
 from pydantic import ValidationError
@@ -18,10 +17,9 @@ from foldmill.refusals import explain
 from foldmill_fabricate import shelf
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock, VirtualClock
-from foldmill_fabricate.plotter.simulator.device import Faults
+from foldmill_fabricate.plotter.simulator import faults, quirks
 from foldmill_fabricate.plotter.simulator.machine import Simulator
-
-N = TypeVar("N", int, float)
+from foldmill_fabricate.plotter.simulator.modem import Wiring
 
 _plugged: dict[str, Simulator] = {}
 
@@ -44,8 +42,8 @@ def behind(url: str) -> Simulator:
     """Return the simulator behind an address, made on first use.
 
     ``sim://NAME?machine=SLUG&buffer=255&handshake=esc-b&baud=9600&answers=no&speed_up=10&clock=real
-    &silent_after=5000&slower=1.5``; the machine is NAME where none is given. Raises UnknownName for
-    a machine, InvalidInput for an option, that there is not.
+    &fault=silence@5000,slow@0x1.5&quirk=needs-in&wiring=three-wires``; the machine is NAME where
+    none is given. Raises UnknownName for a machine, InvalidInput for an option, that there is not.
     """
     if url not in _plugged:
         parts = urlsplit(url)
@@ -60,20 +58,23 @@ def made(name: str, options: dict[str, str]) -> Simulator:
     changed: dict[str, str] = {
         key: left.pop(key) for key in ("buffer", "handshake", "baud", "answers") if key in left
     }
-    faults = Faults(
-        silent_after=_number(left, "silent_after", int),
-        slower=_number(left, "slower", float) or 1.0,
-    )
-    speed_up = _number(left, "speed_up", float) or 1.0
-    clock = left.pop("clock", "virtual")
-    if left or clock not in _CLOCKS:
-        wrong = next(iter(left), f"clock={clock}")
+    speed_up = _number(left, "speed_up")
+    clock, wiring = left.pop("clock", "virtual"), left.pop("wiring", Wiring.FULL)
+    wrong, habits = left.pop("fault", ""), left.pop("quirk", "")
+    if left or clock not in _CLOCKS or wiring not in set(Wiring):
+        option = next(iter(left), f"clock={clock}" if clock not in _CLOCKS else f"wiring={wiring}")
         raise InvalidInput(
-            f"A simulated plotter has no option {wrong!r}. There are: machine, buffer, handshake, "
-            "baud, answers, speed_up, silent_after, slower, and clock=virtual or clock=real."
+            f"A simulated plotter has no option {option!r}. There are: machine, buffer, handshake, "
+            "baud, answers, speed_up, fault, quirk, wiring=full or wiring=three-wires, and "
+            "clock=virtual or clock=real."
         )
     return Simulator(
-        adjusted(machine, changed), clock=_CLOCKS[clock](), speed_up=speed_up, faults=faults
+        adjusted(machine, changed),
+        clock=_CLOCKS[clock](),
+        speed_up=speed_up,
+        faults=faults.parse(wrong),
+        quirks=quirks.parse(habits),
+        wiring=Wiring(wiring),
     )
 
 
@@ -87,14 +88,12 @@ def adjusted(machine: Machine, serial: dict[str, str]) -> Machine:
     return machine.model_copy(update={"serial": settings})
 
 
-def _number(options: dict[str, str], key: str, kind: Callable[[str], N]) -> N | None:
-    text = options.pop(key, None)
-    if text is None:
-        return None
+def _number(options: dict[str, str], key: str) -> float:
+    text = options.pop(key, "1")
     try:
-        value = kind(text)
+        value = float(text)
     except ValueError:
-        value = None
-    if value is None or not 0 < value < inf:
+        value = 0.0
+    if not 0 < value < inf:
         raise InvalidInput(f"{key}={text} is no number above 0.")
     return value

@@ -32,7 +32,9 @@ def groups(strokes: list[Drawn]) -> Groups:
     found: Groups = {}
     for stroke in strokes:
         force = "" if stroke.force is None else f", {stroke.force:g} gf"
-        found.setdefault(f"tool {stroke.tool}, {stroke.speed:g} mm/s{force}", []).append(stroke)
+        setting = f", {stroke.setting}" if stroke.setting else ""
+        name = f"tool {stroke.tool}, {stroke.speed:g} mm/s{force}{setting}"
+        found.setdefault(name, []).append(stroke)
     return found
 
 
@@ -84,8 +86,8 @@ def draw(sheet: DrawnSheet, machine: Machine, folder: Path) -> list[Path]:
     contents = {}
     for face in Face:
         title = f"{face.capitalize()}, as {machine.slug} saw it"
-        contents[f"{face}.svg"] = svg(sheet.strokes[face], machine, title)
-        contents[f"{face}.png"] = png(sheet.strokes[face], machine, title)
+        contents[f"{face}.svg"] = svg(sheet.seen(face), machine, title)
+        contents[f"{face}.png"] = png(sheet.seen(face), machine, title)
     write_all(folder, contents)
     return [folder / name for name in contents]
 

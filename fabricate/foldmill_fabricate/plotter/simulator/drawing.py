@@ -25,6 +25,8 @@ class Drawn:
     """gf; None where the program sets none"""
     points: tuple[Step, ...]
     """Steps, machine axes; a single point where the tool went down and up in one place."""
+    setting: str = ""
+    """What else it was made with, in words, such as a laser's power."""
 
     def millimetres(self, axes: Axes) -> NDArray[np.float64]:
         """Return carrier coordinates (n, 2), mm, as the machine sees the face: reverse mirrored."""
@@ -38,28 +40,56 @@ class DrawnSheet:
 
     up: Face = Face.FRONT
     strokes: dict[Face, list[Drawn]] = field(default_factory=lambda: {face: [] for face in Face})
-    _begun: tuple[int, float, float | None] | None = None
+    """Those that have ended."""
+    _begun: tuple[int, float, float | None, str] | None = None
     _points: list[Step] = field(default_factory=list)
 
-    def lower(self, at: Step, tool: int, speed: float, force: float | None) -> None:
-        """Begin a stroke; one that is under way with other settings ends first."""
-        if self._begun == (tool, speed, force):
+    @property
+    def under_way(self) -> bool:
+        """Whether a tool is in the sheet."""
+        return self._begun is not None
+
+    def seen(self, face: Face) -> list[Drawn]:
+        """Return what can be seen on a face: its strokes, and the one that is under way."""
+        if self._begun is None or face is not self.up:
+            return list(self.strokes[face])
+        return [*self.strokes[face], self._stroke()]
+
+    def lower(
+        self, at: Step, tool: int, speed: float, force: float | None, setting: str = ""
+    ) -> None:
+        """Begin a stroke; one that is under way with other settings ends first.
+
+        Where the tool has only been lowered yet, by its own axis, that one takes the settings.
+        """
+        if self._begun == (tool, speed, force, setting):
             return
-        self.lift()
-        self._begun, self._points = (tool, speed, force), [at]
+        if len(self._points) != 1 or self._begun is None or self._begun[0] != tool:
+            self.lift()
+        self._begun, self._points = (tool, speed, force, setting), [at]
 
     def move(self, to: Step) -> None:
         """Go on with the stroke that is under way, if any."""
         if self._begun:
             self._points.append(to)
 
+    def shift(self, to: Step) -> None:
+        """Let the line that was drawn last end elsewhere: the tool stands, or goes on."""
+        if self._begun and len(self._points) > 1:
+            self._points[-1] = to
+
     def lift(self) -> None:
         """End the stroke that is under way, if any."""
         if self._begun:
-            self.strokes[self.up].append(Drawn(*self._begun, tuple(self._points)))
+            self.strokes[self.up].append(self._stroke())
         self._begun, self._points = None, []
 
     def flip(self) -> None:
         """Turn the sheet over."""
         self.lift()
         self.up = Face.REVERSE if self.up is Face.FRONT else Face.FRONT
+
+    def _stroke(self) -> Drawn:
+        assert self._begun is not None
+        tool, speed, force, setting = self._begun
+        return Drawn(tool, speed, force, tuple(self._points), setting)

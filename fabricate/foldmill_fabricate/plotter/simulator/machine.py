@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import inf
 from threading import RLock
 
@@ -10,10 +10,13 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plotter.clock import Clock, VirtualClock
 from foldmill_fabricate.plotter.errors import PlotterError
-from foldmill_fabricate.plotter.simulator.control import ControlChannel
-from foldmill_fabricate.plotter.simulator.device import XOFF, XON, Device, Faults
+from foldmill_fabricate.plotter.simulator.agreement import XOFF, XON
+from foldmill_fabricate.plotter.simulator.device import Device
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet
+from foldmill_fabricate.plotter.simulator.faults import Fault
 from foldmill_fabricate.plotter.simulator.gauge import Gauge
+from foldmill_fabricate.plotter.simulator.modem import Modem, Wiring
+from foldmill_fabricate.plotter.simulator.quirks import Quirk
 from foldmill_fabricate.plotter.simulator.uart import Transmitter
 
 _FIFO = 16
@@ -35,25 +38,38 @@ class Simulator:
         *,
         clock: Clock | None = None,
         speed_up: float = 1.0,
-        faults: Faults | None = None,
+        faults: Iterable[Fault] = (),
+        quirks: Iterable[Quirk] = (),
+        wiring: Wiring = Wiring.FULL,
     ) -> None:
         self.machine = machine
         self.clock = clock or VirtualClock()
         self.sheets = [DrawnSheet()]
         byte_time = 10 / machine.serial.baud
-        self.device = Device(machine, self.sheet, byte_time, speed_up, faults or Faults())
+        self.device = Device(machine, self.sheet, byte_time, speed_up, faults, quirks)
+        self.modem = Modem(self.device, wiring)
+        """The handshake lines."""
         self.line = Transmitter(byte_time)
         """From the host to the machine."""
         self.honours_xoff = True
         """Whether the host's end of the line stops at XOFF; set by whoever opens it."""
+        self.honours_cts = False
+        """Whether it stops at a low CTS."""
+        self.visit = 0
+        """How often the cable was pulled: a port that was opened before is dead."""
+        self.unplugged = False
+        """Whether the cable is out."""
         self.baud = machine.serial.baud
         """Rate of the host's end; another than the machine's garbles every byte."""
         self.gauge = Gauge((), 0)
         self._heard = bytearray()
         self._written = self._arrived_before = 0
-        self._scanner = ControlChannel()
+        self._scanner = self.device.firmware.scanner()
         self._now = self.clock.now()
         self._lock = RLock()
+        self._stops: set[str] = set()
+        """Why the host's end does not send."""
+        self.device.firmware.start(self._now)
 
     @property
     def sheet(self) -> DrawnSheet:
@@ -62,7 +78,7 @@ class Simulator:
 
     @property
     def next_event(self) -> float:
-        """When something happens by itself, s; infinite for never."""
+        """When something happens by itself, a fault included, s; infinite for never."""
         return min(self.line.next_event, self.device.next_event)
 
     @property
@@ -95,7 +111,10 @@ class Simulator:
         """Put bytes on the line, as the host does."""
         with self._lock:
             self.advance()
-            program = sum(isinstance(self._scanner.feed(byte), int) for byte in data)
+            if not self.device.connected:
+                return
+            self._sense()
+            program = sum(map(self._scanner, data))
             self._written += program
             self.gauge.use.program += program
             self.gauge.use.questions += len(data) - program
@@ -115,13 +134,31 @@ class Simulator:
             self.advance()
             self._written -= len(self.line.queue)
             self.line.queue.clear()
-            self._scanner = ControlChannel()
+            self._scanner = self.device.firmware.scanner()
 
     def lift_xoff(self) -> None:
         """Let the host send again although the machine said XOFF."""
         with self._lock:
             self.advance()
-            self.line.release(self._now)
+            self._let("xoff")
+
+    def hold_line(self, stop: bool) -> None:
+        """Stop the host's end, or let it go on, as its own program says."""
+        with self._lock:
+            self.advance()
+            self._stop("host", 0) if stop else self._let("host")
+
+    def set_rts(self, level: bool) -> None:
+        """Set the host's RTS: False for "do not send to me"."""
+        with self._lock:
+            self.advance()
+            self.modem.set_rts(level, self._now)
+
+    def set_dtr(self, level: bool) -> None:
+        """Set the host's DTR: True for "I am here"."""
+        with self._lock:
+            self.advance()
+            self.modem.set_dtr(level, self._now)
 
     def flip(self) -> None:
         """Turn the sheet over, once the machine has come to rest; raises as ``rest``."""
@@ -148,22 +185,40 @@ class Simulator:
             self.advance()
             self.device.resume(self._now)
 
+    def fail(self, faults: Iterable[Fault]) -> None:
+        """Let more go wrong, at once where its place has been passed."""
+        with self._lock:
+            self.advance()
+            self.device.fail(faults, self._now)
+            self._sense()
+
     def rest(self) -> None:
         """Wait until the machine has done all it has been given.
 
         Raises PlotterError where it then stands with the tool down, is paused or has gone silent.
         """
         self.advance()
-        while self.next_event < inf:
-            self.clock.sleep_until(self.next_event)
+        while (event := min(self.line.next_event, self.device.next_own_event)) < inf:
+            self.clock.sleep_until(event)
             self.advance()
-        device = self.device
-        if device.carriage.down or device.paused or device.dead:
-            why = "paused" if device.paused else "silent" if device.dead else "standing, tool down"
+        why = self._unrest()
+        if why:
             raise PlotterError(
                 f"The simulated plotter has not finished: it is {why}. Finish or stop the program "
                 "before the sheet is touched."
             )
+
+    def _unrest(self) -> str:
+        device = self.device
+        reasons = {
+            "without power": not device.powered,
+            "silent": device.dead,
+            "paused": device.paused,
+            "halted within a line": device.halted,
+            "waiting for its lever": device.lever_up,
+            "standing, tool down": device.carriage.down,
+        }
+        return next((why for why, true in reasons.items() if true), "")
 
     def status(self) -> str:
         """Describe it in one line, for a person."""
@@ -172,11 +227,19 @@ class Simulator:
         x, y = device.carriage.at
         drawn = ", ".join(f"{len(self.sheet.strokes[face])} on the {face}" for face in Face)
         return (
-            f"{self.machine.slug}: {'at rest' if device.idle else 'moving'} at {x},{y}; sheet "
+            f"{self.machine.slug}: {self.doing} at {x},{y}; sheet "
             f"{len(self.sheets)}, {self.sheet.up} up, strokes: {drawn}; {len(traffic.received)} "
             f"bytes received, fullest {traffic.fullest} of {device.size}, {traffic.overruns} lost, "
             f"{tally.errors} errors, {tally.second_in} IN inside a job"
         )
+
+    @property
+    def doing(self) -> str:
+        """What it does, in a word or two."""
+        why = self._unrest()
+        if why and why != "standing, tool down":
+            return why
+        return "at rest" if self.device.idle else "moving"
 
     def advance(self) -> None:
         """Let everything happen up to the clock's time."""
@@ -192,7 +255,33 @@ class Simulator:
                     self._arrive(self.line.happen(event))
                 if working <= event:
                     self._return(self.device.happen(event))
+                if self.honours_cts or self.device.active or self.unplugged:
+                    self._sense()
             self._pass(until)
+
+    def _sense(self) -> None:
+        """Look at the cable, and at CTS where the host's end obeys it."""
+        if self.unplugged == self.device.connected:
+            self.unplugged = not self.device.connected
+            if self.unplugged:
+                self.visit += 1
+                self.line.silence()
+                self._heard.clear()
+        blocked = self.honours_cts and not self.modem.cts
+        if blocked and "cts" not in self._stops:
+            self._stop("cts", _FIFO)
+        elif not blocked and "cts" in self._stops:
+            self._let("cts")
+
+    def _stop(self, why: str, grace: int) -> None:
+        """Stop but for what is in the chip already, ``grace`` bytes of it at most."""
+        self._stops.add(why)
+        self.line.hold(min(grace, len(self.line.queue)))
+
+    def _let(self, why: str) -> None:
+        self._stops.discard(why)
+        if not self._stops:
+            self.line.release(self._now)
 
     def _pass(self, until: float) -> None:
         spent, self._now = until - self._now, max(until, self._now)
@@ -209,6 +298,8 @@ class Simulator:
             return False
         if self.machine.serial.handshake == "xon-xoff":
             return not self.device.holds
+        if self.machine.serial.handshake in ("rts-cts", "dtr"):
+            return self.device.ready
         on_line = self._written + self._arrived_before - len(self.device.traffic.program)
         return self.device.free - on_line >= needs
 
@@ -221,12 +312,12 @@ class Simulator:
             self.device.garble()
 
     def _return(self, byte: int | None) -> None:
-        if byte is None:
+        if byte is None or self.unplugged:
             return
         if self.honours_xoff and byte in (XON, XOFF):
             if byte == XOFF:
-                self.line.hold(_FIFO)
+                self._stop("xoff", _FIFO)
             else:
-                self.line.release(self._now)
+                self._let("xoff")
         else:
             self._heard.append(byte)

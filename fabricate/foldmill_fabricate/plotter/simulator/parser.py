@@ -17,6 +17,7 @@ ENDS = frozenset(b";, \r\n\x03" + bytes(range(65, 91)) + bytes(range(97, 123)))
 
 MOVES = frozenset({"PU", "PD", "PA", "PR"})
 
+_LARGEST = 1e9
 _NUMBER = rb"\s*([+-]?\d+(?:\.\d*)?)\s*"
 _SEPARATORS = re.compile(rb"[\s;]*")
 _MNEMONIC = re.compile(rb"([A-Za-z])\s*([A-Za-z])")
@@ -111,7 +112,7 @@ class Parser:
             return True, None
         found = _PAIR.match(buffer)
         if found and (found[0][:1] == b",") == self._begun:
-            unit, self._begun = Unit(self._open, (float(found[1]), float(found[2]))), True
+            unit, self._begun = Unit(self._open, (_number(found[1]), _number(found[2]))), True
             del buffer[: found.end()]  # only now: a match looks into the buffer itself
             return True, unit
         rest = _REST.match(buffer)
@@ -140,7 +141,12 @@ def _whole(name: str, body: bytes) -> Unit:
         return Unit(name)
     if not _NUMBERS.fullmatch(body):
         return Unit(name, error=WRONG_COUNT)
-    return Unit(name, tuple(float(each) for each in body.split(b",")))
+    return Unit(name, tuple(map(_number, body.split(b","))))
+
+
+def _number(text: bytes) -> float:
+    """Return a number, which no line of digits makes infinite."""
+    return max(-_LARGEST, min(_LARGEST, float(text)))
 
 
 def _end(found: re.Match[bytes] | None) -> int:

@@ -5,6 +5,7 @@ Waiting passes the simulator's clock, so with a virtual clock hours of plotting 
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Callable
 from functools import partial
 from math import inf
@@ -28,7 +29,12 @@ _DRIVER = 4096
 
 
 class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
-    """A port with a simulated plotter behind it; modem lines are not wired."""
+    """A port with a simulated plotter behind it.
+
+    It stops at XOFF with ``xonxoff``, at a low CTS with ``rtscts``; ``dsrdtr`` changes nothing, as
+    under Linux: who wants that must look at ``dsr``. When the cable is pulled every call fails, and
+    the port has to be opened anew.
+    """
 
     is_open: bool
 
@@ -42,6 +48,10 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
             self._simulator = devices.behind(self._port)
         except FoldmillError as error:
             raise SerialException(str(error)) from None
+        self._simulator.advance()
+        if self._simulator.unplugged:
+            raise SerialException(errno.ENOENT, f"could not open port {self._port}: not there")
+        self._visit = self._simulator.visit
         self.is_open = True
         self._reconfigure_port()
 
@@ -57,6 +67,15 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
         return self._simulator
 
     @property
+    def _there(self) -> Simulator:
+        """The plotter, as it is now; raises SerialException where its cable has been pulled."""
+        simulator = self.simulator
+        simulator.advance()
+        if simulator.visit != self._visit:
+            raise SerialException(errno.EIO, "Input/output error: the device has disconnected")
+        return simulator
+
+    @property
     def clock(self) -> Clock:
         """The clock that this port waits by."""
         return self.simulator.clock
@@ -64,18 +83,17 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
     @property
     def in_waiting(self) -> int:
         """Bytes that can be read at once."""
-        return self.simulator.waiting
+        return self._there.waiting
 
     @property
     def out_waiting(self) -> int:
         """Bytes that are not yet on the line."""
-        self.simulator.advance()
-        return self.simulator.queued
+        return self._there.queued
 
     def read(self, size: int = 1) -> bytes:
         """Read up to ``size`` bytes, waiting for them as long as ``timeout`` says."""
         self._wait(lambda: self.in_waiting >= size, self._timeout)
-        return self.simulator.read(size)
+        return self._there.read(size)
 
     def write(self, data: Any) -> int:
         """Queue bytes; raises SerialTimeoutException after ``write_timeout`` without room."""
@@ -85,7 +103,7 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
             room = _DRIVER - len(piece)
             if not self._wait(partial(self._fits, room), self._write_timeout):
                 raise SerialTimeoutException("Write timeout")
-            self.simulator.write(piece)
+            self._there.write(piece)
         return len(content)
 
     def _fits(self, most: int) -> bool:
@@ -97,25 +115,37 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
 
     def reset_input_buffer(self) -> None:
         """Drop what has come and is not read."""
-        self.simulator.read()
+        self._there.read()
 
     def reset_output_buffer(self) -> None:
         """Drop what is not yet on the line."""
-        self.simulator.discard_output()
+        self._there.discard_output()
 
     def set_output_flow_control(self, enable: bool = True) -> None:
         """Let go of, or hold, what is to be sent, whatever the plotter has said."""
         if enable:
-            self.simulator.lift_xoff()
-        else:
-            self.simulator.line.hold(0)
+            self._there.lift_xoff()
+        self._there.hold_line(not enable)
 
     @property
     def cts(self) -> bool:
-        """Not wired."""
-        return False
+        """Clear to send."""
+        return self._there.modem.cts
 
-    dsr = ri = cd = cts
+    @property
+    def dsr(self) -> bool:
+        """Data set ready."""
+        return self._there.modem.dsr
+
+    @property
+    def cd(self) -> bool:
+        """Carrier detect."""
+        return self._there.modem.cd
+
+    @property
+    def ri(self) -> bool:
+        """Ring indicator: no plotter rings."""
+        return False
 
     def _wait(self, over: Callable[[], bool], timeout: float | None) -> bool:
         """Pass time from event to event until it is over, or return False after the timeout."""
@@ -133,9 +163,14 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
     def _reconfigure_port(self) -> None:
         if self.is_open:
             self._simulator.honours_xoff = bool(self._xonxoff)
+            self._simulator.honours_cts = bool(self._rtscts)
             self._simulator.baud = self._baudrate
 
     def _update_dtr_state(self) -> None:
-        """Not wired."""
+        self._there.set_dtr(bool(self._dtr_state))
 
-    _update_rts_state = _update_break_state = _update_dtr_state
+    def _update_rts_state(self) -> None:
+        self._there.set_rts(bool(self._rts_state))
+
+    def _update_break_state(self) -> None:
+        """A break means nothing to a plotter."""

@@ -13,7 +13,7 @@ from foldmill_fabricate.plotter.program import instructions
 from foldmill_fabricate.plotter.sender import Delivery, as_sent, send
 from foldmill_fabricate.plotter.session import reserve
 from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.plotter.simulator.device import Traffic
+from foldmill_fabricate.plotter.simulator.buffer import Traffic
 from foldmill_fabricate.plotter.simulator.gauge import Use
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
@@ -39,8 +39,13 @@ class Trial:
 
     @property
     def identical(self) -> bool:
-        """Whether the machine got these bytes, and behind them only the closing questions."""
-        return bytes(self.traffic.program).removesuffix(b"OA;OE;") == self.expected
+        """Whether the machine got these bytes, and besides only the sender's questions."""
+        return without_questions(bytes(self.traffic.program)) == self.expected
+
+
+def without_questions(program: bytes) -> bytes:
+    """Return a program without what the sender asks between strokes and at the end."""
+    return program.replace(b"OA;", b"").removesuffix(b"OE;")
 
 
 def fine_lines(size: int, step: int, speed: int = 80) -> bytes:

@@ -20,6 +20,8 @@ class Transmitter:
         """Bytes that still leave after XOFF, because they are in the chip's FIFO."""
         self.not_before = 0.0
         """When the next queued byte may leave, s: the time a machine needs to answer."""
+        self.between = 0.0
+        """s of rest between two bytes."""
         self.done = inf
         """When the byte on its way is over, s."""
         self._byte = 0
@@ -56,6 +58,12 @@ class Transmitter:
         self.held = False
         self._start(now)
 
+    def silence(self) -> None:
+        """Lose what is queued and what is on its way."""
+        self.queue.clear()
+        self.urgent.clear()
+        self.done = inf
+
     def happen(self, now: float) -> int | None:
         """Do what is due; return the byte that has arrived at the other end, or None."""
         if self.done > now:
@@ -79,4 +87,4 @@ class Transmitter:
             self.grace -= self.held
         else:
             return
-        self.done = now + self.byte_time
+        self.done = now + self.byte_time + self.between

@@ -1,0 +1,203 @@
+"""Write to the ledger and read it: every change is a compare-and-set in one transaction."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from sqlalchemy import Connection, insert, select, update
+from sqlalchemy.exc import SQLAlchemyError
+
+from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.ledger import words
+from foldmill_fabricate.plotter.ledger.reading import (
+    at_program,
+    not_ready,
+    program_row,
+    sheet_record,
+)
+from foldmill_fabricate.plotter.ledger.run import Run
+from foldmill_fabricate.plotter.ledger.tables import AUDIT, PROGRAMS, RUNS, SHEETS, connect
+from foldmill_fabricate.plotter.ledger.values import Program, Record, SheetRecord, State, Word
+from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
+
+_LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
+"""Of a sheet's id: none that a hand-written one is mistaken for."""
+
+
+def ledger_file() -> Path:
+    """Return the file of this user's ledger; its folder need not exist.
+
+    ``$XDG_STATE_HOME/foldmill/ledger.sqlite``, on Windows under ``%LOCALAPPDATA%``, by default
+    under ``~/.local/state``.
+    """
+    home = os.environ.get("LOCALAPPDATA" if sys.platform == "win32" else "XDG_STATE_HOME")
+    return (Path(home) if home else Path.home() / ".local/state") / "foldmill/ledger.sqlite"
+
+
+def _utc() -> datetime:
+    return datetime.now(UTC)
+
+
+class Ledger:
+    """The ledger in one database.
+
+    place : a file, made where there is none, or an SQLAlchemy URL. now : the time on the wall.
+    Raises LedgerRefused where it cannot be opened.
+    """
+
+    def __init__(self, place: Path | str, now: Callable[[], datetime] = _utc) -> None:
+        self._now = now
+        try:
+            if isinstance(place, Path):
+                place.parent.mkdir(parents=True, exist_ok=True)
+            self._engine = connect(place)
+        except (SQLAlchemyError, OSError) as error:
+            reason = str(error).splitlines()[0]
+            raise LedgerRefused(
+                f"The ledger {place} cannot be opened: {reason}. Nothing is sent without it."
+            ) from None
+
+    def close(self) -> None:
+        """Let go of the database."""
+        self._engine.dispose()
+
+    def lay(
+        self, job: str, programs: Sequence[Program], *, title: str, machine: str, material: str
+    ) -> SheetRecord:
+        """Begin a new sheet of a job and return it; job : SHA-256 of its plan."""
+        head = {"job": job, "title": title, "machine": machine, "material": material}
+        with self._engine.begin() as at:
+            name = _free_name(at, job)
+            at.execute(insert(SHEETS).values(id=name, begun=stamp(self._now()), **head))
+            ready = {"sheet": name, "state": State.READY.value}
+            rows = [{**ready, "number": k, **vars(one)} for k, one in enumerate(programs)]
+            at.execute(insert(PROGRAMS), rows)
+            note(at, self._now(), name, None, "laid")
+        return self.sheet(name)
+
+    def sheet(self, name: str) -> SheetRecord:
+        """Return a sheet; raises LedgerRefused where there is none of that id."""
+        with self._engine.begin() as at:
+            row = at.execute(select(SHEETS).where(SHEETS.c.id == name.upper())).first()
+            if row is None:
+                raise LedgerRefused(f"The ledger knows no sheet {name!r}; look at its id again.")
+            return sheet_record(at, row)
+
+    def open_sheets(self, job: str | None = None) -> list[SheetRecord]:
+        """Return the sheets that were begun and are not finished, the newest first."""
+        wanted = select(SHEETS).order_by(SHEETS.c.number.desc())
+        if job is not None:
+            wanted = wanted.where(SHEETS.c.job == job)
+        with self._engine.begin() as at:
+            sheets = [sheet_record(at, row) for row in at.execute(wanted).all()]
+        return [sheet for sheet in sheets if sheet.is_open and sheet.is_begun]
+
+    def record(self, sheet: str, number: int) -> Record:
+        """Return one program of a sheet."""
+        return self.sheet(sheet).records[number]
+
+    def history(self, sheet: str) -> list[tuple[str, str, str]]:
+        """Return what happened to a sheet: (when, who, what), the oldest first."""
+        wanted = select(AUDIT.c.when, AUDIT.c.who, AUDIT.c.what).where(AUDIT.c.sheet == sheet)
+        with self._engine.begin() as at:
+            return [(row[0], row[1], row[2]) for row in at.execute(wanted.order_by(AUDIT.c.id))]
+
+    def claim(self, sheet: str, number: int, device: str) -> Run:
+        """Take a ready program's token.
+
+        Whoever calls holds the device's lock. Raises LedgerRefused, with the sentence, where the
+        program is not ready; one that another run left without an end is interrupted from then on.
+        """
+        with self._engine.begin() as at:
+            row = program_row(at, sheet, number)
+            token = row.token + 1
+            if State(row.state) is State.READY and set_state(at, row, State.RUNNING, token=token):
+                begun = {"first": row.first, "sent": row.first, "acked": row.first}
+                place = {"sheet": sheet, "number": number, "token": token, "vertex": row.vertex}
+                at.execute(insert(RUNS).values(device=device, **place, **begun))
+                note(at, self._now(), sheet, number, f"begun at stroke {row.first + 1} on {device}")
+                return Run(self, sheet, number, token, row.first, row.strokes)
+        raise LedgerRefused(not_ready(self.recover(sheet, number)))
+
+    def recover(self, sheet: str, number: int) -> Record:
+        """Return a program; a run of it that nobody ended is interrupted from now on.
+
+        Whoever calls holds the device's lock, so that such a run is dead.
+        """
+        with self._engine.begin() as at:
+            row = program_row(at, sheet, number)
+            if State(row.state) is State.RUNNING:
+                why = "The run before was never ended: it crashed, or was killed."
+                set_state(at, row, State.INTERRUPTED, note=why)
+                note(at, self._now(), sheet, number, f"interrupted: {why}")
+        return self.record(sheet, number)
+
+    def write(self, run: Run, sent: int, acked: int) -> None:
+        """Write down how far a run is; raises Fenced where it lost its token."""
+        running = select(PROGRAMS.c.sheet).where(
+            at_program(run.sheet, run.number),
+            PROGRAMS.c.token == run.token,
+            PROGRAMS.c.state == State.RUNNING.value,
+        )
+        mine = (RUNS.c.sheet == run.sheet) & (RUNS.c.number == run.number)
+        change = update(RUNS).where(mine, RUNS.c.token == run.token, running.exists())
+        with self._engine.begin() as at:
+            done = at.execute(change.values(sent=sent, acked=acked)).rowcount
+        if done != 1:
+            raise Fenced(_fenced(run))
+
+    def end(self, run: Run, state: State, why: str) -> None:
+        """End a run; raises Fenced where it lost its token."""
+        with self._engine.begin() as at:
+            row = program_row(at, run.sheet, run.number)
+            if row.token != run.token or not set_state(at, row, state, note=why):
+                raise Fenced(_fenced(run))
+            told = f"{state.value}: {why}" if why else state.value
+            note(at, self._now(), run.sheet, run.number, told)
+
+    def say(self, sheet: str, number: int, said: words.Said, who: str = "") -> Record:
+        """Take a person's word on a program that was interrupted or not confirmed.
+
+        Raises LedgerRefused where it says what cannot be.
+        """
+        record = self.record(sheet, number)
+        words.refuse(record, said)
+        with self._engine.begin() as at:
+            row = program_row(at, sheet, number)
+            if not words.apply(at, row, record, said):
+                raise LedgerRefused(
+                    f"Somebody else has spoken of {record.program.name} of sheet {sheet} "
+                    "meanwhile; look again."
+                )
+            note(at, self._now(), sheet, number, str(said), who)
+        return self.record(sheet, number)
+
+    def give_up(self, sheet: str, who: str = "") -> SheetRecord:
+        """Give up what is left of a sheet, on a person's word."""
+        with self._engine.begin() as at:
+            words.give_up(at, sheet)
+            note(at, self._now(), sheet, None, Word.SPOILED.value, who)
+        return self.sheet(sheet)
+
+
+def _free_name(at: Connection, job: str) -> str:
+    """Return a short id that no sheet has: the job's and its count's, as four letters."""
+    count = len(at.execute(select(SHEETS.c.number).where(SHEETS.c.job == job)).all())
+    while True:
+        digest = hashlib.sha256(f"{job} {count}".encode()).digest()
+        name = "".join(_LETTERS[byte % len(_LETTERS)] for byte in digest[:4])
+        if at.execute(select(SHEETS.c.id).where(SHEETS.c.id == name)).first() is None:
+            return name
+        count += 1
+
+
+def _fenced(run: Run) -> str:
+    return (
+        f"Program {run.number + 1} of sheet {run.sheet} was taken over by another process; this "
+        "one stops, and sends nothing more."
+    )

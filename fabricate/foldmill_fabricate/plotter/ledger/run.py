@@ -1,0 +1,36 @@
+"""A run of a program: the one hand that may write what was sent and what was confirmed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from foldmill_fabricate.plotter.ledger.values import State
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.plotter.ledger.ledger import Ledger
+
+
+class Run:
+    """Holds a program's token. Every call raises Fenced once somebody else holds it."""
+
+    def __init__(
+        self, ledger: Ledger, sheet: str, number: int, token: int, first: int, strokes: int
+    ) -> None:
+        self._ledger, self._strokes = ledger, strokes
+        self.sheet, self.number, self.token, self.first = sheet, number, token, first
+        self.sent = self.acked = first
+
+    def advance(self, sent: int, acked: int) -> None:
+        """Write down, before their bytes leave, that strokes before ``sent`` may be cut.
+
+        acked : strokes that the machine has confirmed. Neither ever falls. Nothing is written
+        where nothing has changed.
+        """
+        sent, acked = max(min(sent, self._strokes), self.sent), max(acked, self.acked)
+        if (sent, acked) != (self.sent, self.acked):
+            self._ledger.write(self, sent, acked)
+            self.sent, self.acked = sent, acked
+
+    def end(self, state: State, note: str = "") -> None:
+        """Give the token back; ``note`` : why, a sentence."""
+        self._ledger.end(self, state, note)

@@ -1,0 +1,97 @@
+"""The ledger's tables, in SQL that SQLite and PostgreSQL both know."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import (
+    Column,
+    Engine,
+    Float,
+    ForeignKey,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    Text,
+    create_engine,
+    event,
+)
+
+METADATA = MetaData()
+
+SHEETS = Table(
+    "sheets",
+    METADATA,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(8), nullable=False, unique=True),
+    Column("job", String(64), nullable=False, index=True),
+    Column("title", Text, nullable=False),
+    Column("machine", Text, nullable=False),
+    Column("material", Text, nullable=False),
+    Column("begun", String(32), nullable=False),
+)
+PROGRAMS = Table(
+    "programs",
+    METADATA,
+    Column("sheet", ForeignKey("sheets.id"), primary_key=True),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("name", Text, nullable=False),
+    Column("face", String(16), nullable=False),
+    Column("sha256", String(64), nullable=False),
+    Column("strokes", Integer, nullable=False),
+    Column("state", String(32), nullable=False),
+    Column("token", Integer, nullable=False, server_default="0"),
+    Column("first", Integer, nullable=False, server_default="0"),
+    Column("vertex", Integer, nullable=False, server_default="0"),
+    Column("overlap", Float, nullable=False, server_default="0"),
+    Column("note", Text, nullable=False, server_default=""),
+)
+RUNS = Table(
+    "runs",
+    METADATA,
+    Column("sheet", ForeignKey("sheets.id"), primary_key=True),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("token", Integer, primary_key=True, autoincrement=False),
+    Column("device", Text, nullable=False),
+    Column("first", Integer, nullable=False),
+    Column("vertex", Integer, nullable=False),
+    Column("sent", Integer, nullable=False),
+    Column("acked", Integer, nullable=False),
+    Column("cut_to", Integer),
+)
+AUDIT = Table(
+    "audit",
+    METADATA,
+    Column("id", Integer, primary_key=True, autoincrement=True),
+    Column("when", String(32), nullable=False),
+    Column("sheet", String(8), nullable=False, index=True),
+    Column("number", Integer),
+    Column("who", Text, nullable=False),
+    Column("what", Text, nullable=False),
+)
+
+
+def connect(place: Path | str) -> Engine:
+    """Open a ledger's database, a file's path or an SQLAlchemy URL, with all its tables."""
+    url = f"sqlite:///{place}" if isinstance(place, Path) else place
+    engine = create_engine(url)
+    if engine.dialect.name == "sqlite":
+        event.listen(engine, "connect", _safe)
+        event.listen(engine, "begin", _immediate)
+    METADATA.create_all(engine)
+    return engine
+
+
+def _safe(connection: Any, _record: Any) -> None:
+    """Make every commit reach the disk, and leave the beginning of transactions to us."""
+    connection.isolation_level = None
+    for setting in ("busy_timeout = 30000", "journal_mode = WAL", "synchronous = FULL"):
+        connection.execute(f"PRAGMA {setting}")
+    connection.execute("PRAGMA foreign_keys = ON")
+
+
+def _immediate(connection: Any) -> None:
+    """Lock when a transaction begins, not when it first writes: what it has read stays true."""
+    connection.exec_driver_sql("BEGIN IMMEDIATE")

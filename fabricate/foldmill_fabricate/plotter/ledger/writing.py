@@ -1,0 +1,47 @@
+"""The changes a transaction of the ledger is made of."""
+
+from __future__ import annotations
+
+import getpass
+from datetime import datetime
+from typing import Any
+
+from sqlalchemy import Connection, Row, and_, insert, update
+
+from foldmill_fabricate.plotter.ledger.reading import at_program
+from foldmill_fabricate.plotter.ledger.tables import AUDIT, PROGRAMS
+from foldmill_fabricate.plotter.ledger.values import FOLLOWS, State
+
+
+def person() -> str:
+    """Return who is at the computer, as it knows them."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError):
+        return "somebody"
+
+
+def set_state(at: Connection, row: Row[Any], to: State, **values: Any) -> bool:
+    """Compare and set: True where the program was still as ``row`` says."""
+    if to not in FOLLOWS[State(row.state)]:
+        return False
+    same = and_(
+        at_program(row.sheet, row.number),
+        PROGRAMS.c.state == row.state,
+        PROGRAMS.c.token == row.token,
+    )
+    done = at.execute(update(PROGRAMS).where(same).values(state=to.value, **values))
+    return bool(done.rowcount == 1)
+
+
+def note(
+    at: Connection, when: datetime, sheet: str, number: int | None, what: str, who: str = ""
+) -> None:
+    """Add to the history of a sheet."""
+    about = {"sheet": sheet, "number": number, "who": who or person(), "what": what}
+    at.execute(insert(AUDIT).values(when=stamp(when), **about))
+
+
+def stamp(when: datetime) -> str:
+    """Return a time as it is written down."""
+    return when.isoformat(timespec="milliseconds")

@@ -1,0 +1,42 @@
+"""What the frame of a machine asks of its firmware, whichever language that speaks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+
+class Firmware(Protocol):
+    """Takes bytes off the line and says what the motors do next."""
+
+    def start(self, now: float) -> None:
+        """Begin as after switching on."""
+
+    def hear(self, byte: int, now: float) -> None:
+        """Take a byte off the line."""
+
+    def begin(self, now: float) -> float | None:
+        """Begin the next thing and return how long it takes, s; None where there is nothing."""
+
+    def ended(self, now: float) -> None:
+        """Learn that the thing begun last has ended."""
+
+    def settle(self, now: float) -> None:
+        """Say what is due now that room was made in the buffer, or the machine stands."""
+
+    def fault(self, error: int) -> None:
+        """Note an I/O error of the line."""
+
+    @property
+    def ready(self) -> bool:
+        """Level of the ready line: True for "send"."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether it has said "wait" by a character, and nothing since."""
+
+    def wait(self, stuck: bool, now: float) -> None:
+        """Say "wait", and nothing else until it is no longer stuck."""
+
+    def scanner(self) -> Callable[[int], bool]:
+        """Return a function that tells byte for byte whether it belongs to the program."""
