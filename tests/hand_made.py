@@ -164,7 +164,7 @@ def _setup(
         process="score" if scored else "cut",
         tool=tool.tools.station(process.kind),
         exposure=process.exposure,
-        force=process.force,
+        force=min(process.force, tool.tools.max_force or 0.0),
         speed=process.speed,
         gates=gates if tool.tools.change == "operator" else gates[:1],
         operations=operations,

@@ -36,9 +36,15 @@ which processes it offers, with what force, up to which thickness. `foldmill pla
 process of the material that the machine can do, or says what is missing and what would work;
 `--score` and `--outline` choose another. `--to places` draws where planning found something.
 
+`--copies 6` or `--grid 3x2` make several parts of one blank: turned alike, the material's
+`part_clearance` apart, numbered row by row from the lower left, one cut out after the other. What
+does not fit is refused with the missing millimetres, how many would fit, and the smallest blank
+that works.
+
     foldmill materials --show pp-0.75
     foldmill plan stool.fold --material card-250 --machine flatbed-wheel-knife -o job
     foldmill plan stool.fold --score half-cut --outline score-and-snap --to svg,places -o job
+    foldmill plan star.fold --grid 2x2 -o job
 
 **No value was tried on hardware.** All materials are marked untested and all machines unverified:
 cut a piece of waste before a sheet.

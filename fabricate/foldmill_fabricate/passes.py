@@ -3,17 +3,24 @@
 All positions are sheet coordinates: mm, x right, y up, origin in the blank's lower left corner,
 the viewer looking at the FRONT face. They are never mirrored here; a writer mirrors the reverse.
 
-Terminology: a *pass* is one face of the sheet; a *set-up* is what is done without an operator's
-hand on the machine; an *operation* is all lines of one role in it; a *stroke* is one motion with
-the tool down; a *repeat* is the knife going over a stroke again without lifting.
+Terminology: a *copy* is one part of several on a sheet; a *pass* is one face of the sheet; a
+*set-up* is what is done without an operator's hand on the machine; an *operation* is all lines of
+one role in it; a *stroke* is one motion with the tool down; a *repeat* is the knife going over a
+stroke again without lifting.
 """
 
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+)
 
 from foldmill.finding import Finding
 from foldmill_fabricate.ladders import Coupon
@@ -64,6 +71,15 @@ class _Value(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
+def _without(written: dict[str, Any], **usual: object) -> dict[str, Any]:
+    """Leave out what is as it is for a sheet that holds one part."""
+    return {
+        name: value
+        for name, value in written.items()
+        if name not in usual or value not in (usual[name], ())
+    }
+
+
 class Stroke(_Value):
     """One motion with the tool down, once along it. A closed stroke ends where it begins.
 
@@ -72,6 +88,12 @@ class Stroke(_Value):
     """
 
     points: tuple[XY, ...] = Field(min_length=2)
+    piece: int = Field(default=0, ge=0)
+    """Which copy it belongs to: 1, 2, 3 …; 0 where the sheet holds one part, and in the waste."""
+
+    @model_serializer(mode="wrap")
+    def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return _without(write(self), piece=0)
 
     @property
     def closed(self) -> bool:
@@ -277,6 +299,11 @@ class Plan(_Value):
     machine: Machine
     sheet: Sheet
     placement: Placement
+    """Of the part; of copies, the first."""
+    quantity: int = Field(default=1, ge=1)
+    """How many copies of the part the sheet holds."""
+    copies: tuple[Placement, ...] = ()
+    """Of the second copy, the third …"""
     flip: Flip
     unassigned: Literal["front", "reverse", "skip"] | None = None
     """On which face U creases are scored; None where there are none."""
@@ -298,3 +325,12 @@ class Plan(_Value):
     programs: tuple[ProgramFile, ...] = ()
     drawings: tuple[str, ...] = ()
     """Names of the other files that were written beside it."""
+
+    @property
+    def placements(self) -> tuple[Placement, ...]:
+        """Where each copy lies, the first one first."""
+        return (self.placement, *self.copies)
+
+    @model_serializer(mode="wrap")
+    def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return _without(write(self), quantity=1, copies=[])

@@ -112,6 +112,12 @@ def plan(
     relief: Annotated[
         ReliefChoice, typer.Option(help="Which vertices get a hole in which grooves end.")
     ] = ReliefChoice.NONE,
+    copies: Annotated[
+        int, typer.Option(min=1, help="How many copies on the blank, in the grid that suits it.")
+    ] = 1,
+    grid: Annotated[
+        str | None, typer.Option(help="COLUMNSxROWS of copies, instead of --copies.")
+    ] = None,
     registration: Annotated[
         RegistrationChoice,
         typer.Option(help="What keeps the faces in register; the machine must be able to."),
@@ -144,6 +150,8 @@ def plan(
         score=None if score is None else score.value,
         cut=None if outline is None else outline.value,
         relief=relief.value,
+        copies=copies,
+        grid=None if grid is None else counts(grid, "--grid"),
         register=registration.value,
         temperatures=None if temperature is None else temperatures(temperature),
     )
@@ -151,7 +159,8 @@ def plan(
     programs = (
         "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
     )
-    say(as_json, written.model_dump(mode="json"), describe(written) + programs)
+    data = {**written.model_dump(mode="json"), "quantity": written.quantity}
+    say(as_json, data, describe(written) + programs)
     exit_code(written.findings)
 
 
@@ -214,6 +223,14 @@ def size(text: str, option: str) -> tuple[float, float]:
     return read
 
 
+def counts(text: str, option: str) -> tuple[int, int]:
+    """Read COLUMNSxROWS, both at least one."""
+    columns, _, rows = text.lower().replace("×", "x").partition("x")
+    if not (columns.isdecimal() and rows.isdecimal() and int(columns) and int(rows)):
+        raise FoldmillError(f"{option}: write COLUMNSxROWS, as 3x2; not {text!r}.")
+    return int(columns), int(rows)
+
+
 def temperatures(text: str) -> tuple[float, float]:
     """Read FRONT,REVERSE in °C."""
     front, _, reverse = text.partition(",")
@@ -241,6 +258,7 @@ def describe(plan: Plan) -> str:
     bound = f", no order goes below {figures.travel_bound / 1000:.2f} m"
     facts = {
         "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
+        **({"copies": str(plan.quantity)} if plan.quantity > 1 else {}),
         "turned by": f"{plan.placement.angle:g}°",
         "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
         "travel": f"{figures.travel / 1000:.2f} m{bound if figures.travel_bound else ''}",

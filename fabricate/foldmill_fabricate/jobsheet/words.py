@@ -28,9 +28,9 @@ _GROOVES = {
     "either": "both ways",
 }
 _FREED = {
-    "through-cut": "Take the part out of its ties and cut them flush.",
+    "through-cut": "Take the {part} out of {its} ties and cut them flush.",
     "score-and-snap": "Bend the waste back along the outline until it snaps off, side by side.",
-    "pen": "Cut the part out by hand along its drawn outline.",
+    "pen": "Cut the {part} out by hand along {its} drawn outline.",
 }
 _KINDS = {
     Assignment.M: "mountain",
@@ -42,10 +42,11 @@ _KINDS = {
 def summary(plan: Plan) -> str:
     """Return which pattern on which sheet, and how long the machine moves."""
     size = plan.sheet
+    copies = f"{plan.quantity} copies   " if plan.quantity > 1 else ""
     return (
-        f"Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm on a mat "
-        f"of {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   About "
-        f"{max(1, round(plan.figures.seconds / 60))} min of motion"
+        f"{copies}Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm "
+        f"on a mat of {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   "
+        f"About {max(1, round(plan.figures.seconds / 60))} min of motion"
     )
 
 
@@ -222,7 +223,9 @@ def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[
         f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
         f"a straight edge: mountains with the front outside, valleys with the reverse outside."
     )
-    steps = [_FREED[plan.material.cut.kind], flex]
+    one = plan.quantity == 1
+    part, its = ("part", "its") if one else (f"{plan.quantity} parts", "their")
+    steps = [_FREED[plan.material.cut.kind].format(part=part, its=its), flex]
     standing = [group.letter for group in found if not group.is_closed]
     closing = [group.letter for group in found if group.is_closed]
     if standing:

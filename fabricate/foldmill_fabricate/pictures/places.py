@@ -40,7 +40,8 @@ def places_picture(plan: Plan) -> bytes:
         sheet.draw(axes, plan)
         for number, place in enumerate(found, start=1):
             _mark(axes, number, place)
-        figure.suptitle(f"{plan.title}: {_count(len(found))}", fontsize=11)
+        alike = f", the same on each of {plan.quantity} copies" if plan.quantity > 1 else ""
+        figure.suptitle(f"{plan.title}: {_count(len(found))}{alike}", fontsize=11)
         figure.text(0.04, 0.25, _words(found), fontsize=6.5, va="top")
         return canvas.png(figure)
 
@@ -64,7 +65,9 @@ def places(findings: Sequence[Finding]) -> list[Place]:
 def _mark(axes: Axes, number: int, place: Place) -> None:
     colour = COLOURS[place.finding.severity]
     x, y = place.at
-    axes.plot([x], [y], "o", markersize=12, color=colour, fillstyle="none", markeredgewidth=1.6)
+    axes.plot(
+        [x], [y], "o", markersize=12, color=colour, fillstyle="none", markeredgewidth=1.6, zorder=6
+    )
     look = {"fontsize": 9, "color": colour, "weight": "bold", "textcoords": "offset points"}
     axes.annotate(str(number), place.at, xytext=(8, 8), **look)  # type: ignore[arg-type]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,6 +35,8 @@ LOOKS: dict[Key, tuple[str, str, float]] = {
     (Role.LABEL, Face.REVERSE): ("words on the reverse", "#f07800", 0.7),
 }
 """Name, colour and width in points; both faces are drawn unmirrored."""
+LETTERS = 105
+"""Letters in a line of the title."""
 
 
 def sheet_picture(plan: Plan) -> bytes:
@@ -42,7 +45,8 @@ def sheet_picture(plan: Plan) -> bytes:
         figure = canvas.figure(200, 215)
         draw(canvas.flat_axes(figure, (0.03, 0.08, 0.94, 0.85)), plan)
         turned = f"turned by {plan.placement.angle:.2f}° on its blank, seen from the front"
-        figure.suptitle(f"{plan.title}, {turned}", fontsize=11)
+        copies = f"{plan.quantity} copies, " if plan.quantity > 1 else ""
+        figure.suptitle(fill(f"{plan.title}, {copies}{turned}", LETTERS), fontsize=11)
         return canvas.png(figure)
 
 
@@ -57,7 +61,7 @@ def draw(axes: Axes, plan: Plan, letters: float = 9) -> None:
             canvas.add_lines(axes, lines, color=colour, linewidth=width)
             label = f"{name}: {len(lines)}" if role is not Role.WITNESS else name
             canvas.legend_entry(axes, label, color=colour, linewidth=width)
-    _label_places(axes, plan, span)
+    _label_places(axes, plan, span, letters)
     canvas.scale_bar(axes, 0, -0.035 * span, span)
     axes.set_xlim(-0.03 * span, sheet.width + 0.03 * span)
     axes.set_ylim(-0.06 * span, sheet.height + 0.05 * span)
@@ -79,6 +83,21 @@ def strokes(plan: Plan, role: Role, face: Face | None = None) -> list[Floats]:
     ]
 
 
+def copies(plan: Plan) -> list[tuple[int, tuple[float, float]]]:
+    """Return the number of each copy and a place beside its middle, mm; none where there is one."""
+    corners: dict[int, list[tuple[float, float]]] = {}
+    for work in plan.passes:
+        for stroke in (s for setup in work.setups for op in setup.operations for s in op.strokes):
+            if stroke.piece:
+                corners.setdefault(stroke.piece, []).extend(stroke.points)
+    found = []
+    for number, points in sorted(corners.items()):
+        low, high = np.min(points, axis=0), np.max(points, axis=0)
+        x, y = (low + (high - low) * (0.42, 0.58)).tolist()
+        found.append((number, (x, y)))
+    return found
+
+
 def axis_line(sheet: Sheet, flip: Flip, beyond: float) -> tuple[list[float], list[float]]:
     """Return xs and ys of the line that the sheet is turned over about, a little too long."""
     if flip.kind == "left-right":
@@ -96,7 +115,7 @@ def _draw_blank(axes: Axes, sheet: Sheet, flip: Flip | None, span: float) -> Non
     axes.text(across[1], along[1], f" turned over {flip.kind}", fontsize=8, color="#606060")
 
 
-def _label_places(axes: Axes, plan: Plan, span: float) -> None:
+def _label_places(axes: Axes, plan: Plan, span: float, letters: float) -> None:
     for k, hole in enumerate(plan.holes, start=1):
         x, y = hole.x + 0.7 * hole.diameter, hole.y + 0.7 * hole.diameter
         axes.text(x, y, str(k), fontsize=9, color="#0a6020")
@@ -108,6 +127,10 @@ def _label_places(axes: Axes, plan: Plan, span: float) -> None:
     if plan.ties:
         look = {"marker": "o", "color": "#d01010", "fillstyle": "none", "linestyle": "none"}
         canvas.legend_entry(axes, f"ties: {len(plan.ties)}", **look)
+    for number, middle in copies(plan):
+        x, y = middle
+        frame = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": "#808080"}
+        axes.text(x, y, str(number), fontsize=letters, ha="center", va="center", bbox=frame)
     marks = strokes(plan, Role.WITNESS)
     if marks:
         x, y = np.vstack(marks).max(axis=0)

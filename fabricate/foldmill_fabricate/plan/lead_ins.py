@@ -7,6 +7,7 @@ can also be run by itself, or once more.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import XY, Pass, SetUp, Sheet
 from foldmill_fabricate.plan.optical import box
-from foldmill_fabricate.plan.registration import Registration
+from foldmill_fabricate.plan.registration import Registration, parts
 from foldmill_fabricate.toolpath.knife import lead_in
 
 Floats = NDArray[np.float64]
@@ -34,7 +35,7 @@ _CHUNK = 256
 
 def added(
     passes: tuple[Pass, ...],
-    part: Floats,
+    rims: Sequence[Floats],
     marks: Registration,
     sheet: Sheet,
     material: Material,
@@ -42,29 +43,31 @@ def added(
 ) -> tuple[Pass, ...]:
     """Give each set-up a lead-in where programs make up for the blade's offset.
 
-    part : its outline (n, 2) on the sheet, mm. A lead-in keeps the material's ``part_clearance``
-    and the offset away from the part, the blank's edges, the marks and other lead-ins, and lies as
-    near to the first stroke as that allows. Raises CannotPlan where there is no place.
+    rims : the parts' outlines (n, 2) on the sheet, mm. A lead-in keeps the material's
+    ``part_clearance`` and the offset away from the parts, the blank's edges, the marks and other
+    lead-ins, and lies as near to the first stroke as that allows. Raises CannotPlan where there is
+    no place.
     """
     offset = machine.tools.host_offset
     if not offset:
         return passes
     room = material.part_clearance + offset + _SPARE
-    free = _free(part, marks, sheet, room)
+    free = _free(parts(rims), marks, sheet, room)
     done = []
     for work in passes:
         setups = []
         for setup in work.setups:
             way = _place(setup, free, sheet, offset)
             if way is None:
-                raise CannotPlan(_no_place(setup, room, machine))
+                clear = material.part_clearance
+                raise CannotPlan(_no_place(setup, room, clear, sheet, machine))
             free = free.difference(_line(way).buffer(room + offset))
             setups.append(setup.model_copy(update={"lead_in": way}))
         done.append(work.model_copy(update={"setups": tuple(setups)}))
     return tuple(done)
 
 
-def _free(part: Floats, marks: Registration, sheet: Sheet, room: float) -> Any:
+def _free(part: Any, marks: Registration, sheet: Sheet, room: float) -> Any:
     """Return the area in which the holder may go."""
     import shapely
 
@@ -72,7 +75,7 @@ def _free(part: Floats, marks: Registration, sheet: Sheet, room: float) -> Any:
     holes = [shapely.Point(h.x, h.y).buffer(h.diameter / 2 + room) for h in marks.holes]
     witness = [_line(stroke.points).buffer(room) for stroke in marks.witness]
     windows = [box(mark).buffer(room) for mark in marks.made.marks]
-    taken = [shapely.Polygon(part).buffer(room), *holes, *windows, *witness]
+    taken = [part.buffer(room), *holes, *windows, *witness]
     return blank.difference(shapely.union_all(taken))
 
 
@@ -101,10 +104,27 @@ def _place(setup: SetUp, free: Any, sheet: Sheet, offset: float) -> tuple[XY, ..
     return None
 
 
-def _no_place(setup: SetUp, room: float, machine: Machine) -> str:
-    leg = float(np.abs(lead_in((0.0, 0.0), machine.tools.host_offset, 0.0)).max())
+def strip(clearance: float, machine: Machine) -> float:
+    """Return how much broader the waste on every side must be to hold any lead-in, mm.
+
+    clearance : what there is already between part and edge, mm. 0 where none is needed.
+    """
+    offset = machine.tools.host_offset
+    if not offset:
+        return 0.0
+    return 2 * (clearance + offset + _SPARE) + _leg(offset) + GRID - clearance
+
+
+def _leg(offset: float) -> float:
+    return float(np.abs(lead_in((0.0, 0.0), offset, 0.0)).max())
+
+
+def _no_place(setup: SetUp, room: float, clearance: float, sheet: Sheet, machine: Machine) -> str:
+    more = 2 * strip(clearance, machine)
+    width, height = (np.ceil((side + more) * 10) / 10 for side in (sheet.width, sheet.height))
     return (
         f"There is no place in the waste for the lead-in of set-up {setup.number} "
-        f'"{setup.name}": two legs of {leg:g} mm with {room:.2f} mm of room round them. Take a '
-        f"larger blank, or let {machine.slug} make up for its blade's offset itself."
+        f'"{setup.name}": two legs of {_leg(machine.tools.host_offset):g} mm with {room:.2f} mm of '
+        f"room round them. A blank of {width:g} × {height:g} mm has room for it; or let "
+        f"{machine.slug} make up for its blade's offset itself."
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,12 +17,13 @@ from foldmill.finding import Finding, Severity
 from foldmill.slits import sewn
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Kind, Material, Perforation
-from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet, Tie
+from foldmill_fabricate.materials import Kind, Material
+from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet
 from foldmill_fabricate.plan import (
+    blanks,
     budget,
     lead_ins,
-    outline,
+    lines,
     processes,
     registration,
     rules,
@@ -33,9 +34,9 @@ from foldmill_fabricate.plan import (
 )
 from foldmill_fabricate.plan import relief as relief_holes
 from foldmill_fabricate.plan.figures import measure
-from foldmill_fabricate.plan.placement import lay_blank, place
+from foldmill_fabricate.plan.grids import Block, Grid
+from foldmill_fabricate.plan.placement import lay_blank, lay_out
 from foldmill_fabricate.plan.registration import Registration
-from foldmill_fabricate.plan.setups import Lines
 from foldmill_fabricate.sheet import placed
 
 Floats = NDArray[np.float64]
@@ -55,6 +56,8 @@ def make(
     flip: FlipKind = "left-right",
     unassigned: sides.Unassigned | None = None,
     relief: relief_holes.Relief = "none",
+    copies: int = 1,
+    grid: tuple[int, int] | None = None,
     register: RegistrationKind = "holes",
     temperatures: tuple[float, float] | None = None,
 ) -> Plan:
@@ -63,7 +66,8 @@ def make(
     score, cut : the processes to use, by default the first of the material's that the machine can
     do; blank : (width, height) mm, by default the material's stock; carrier : (width, height) mm,
     by default the machine's mat; flip : how the operator turns the sheet; unassigned : where U
-    creases are scored; relief : which vertices get a hole; register : what keeps the faces
+    creases are scored; relief : which vertices get a hole; copies : how many parts, in the grid
+    that suits the blank; grid : (columns, rows) of copies instead; register : what keeps the faces
     in register; temperatures : of the sheet at both passes, °C. The same input gives the same plan.
     Raises CannotPlan or DoesNotFit with a sentence.
     """
@@ -71,34 +75,37 @@ def make(
         raise CannotPlan("The pattern is empty; there is nothing to cut.")
     pattern = sewn(fold.pattern).pattern
     material = processes.chosen(material, machine, score, cut)
-    sheet = lay_blank(
-        machine,
-        blank or (material.stock_width, material.stock_height),
-        carrier or (machine.bed.carrier_width, machine.bed.carrier_height),
-    )
-    placement = place(pattern.vertices, sheet, material.part_clearance)
-    spots = placed(pattern.vertices, placement)
+    block = _block(pattern, material, copies, grid)
+    blank = blank or (material.stock_width, material.stock_height)
+    carrier = carrier or (machine.bed.carrier_width, machine.bed.carrier_height)
+    sheet = lay_blank(machine, blank, carrier, block)
+    placements = lay_out(block, sheet, lambda: blanks.advice(block, blank, carrier, machine))
+    every = [placed(pattern.vertices, placement) for placement in placements]
+    spots, rims = every[0], [_rim(pattern, own) for own in every]
     turn = _flip(flip, sheet)
     by_face = sides.scored_edges(pattern, material.score, unassigned)
-    marks = _register(register, pattern, spots, sheet, turn, material, machine, by_face)
+    marks = _register(register, rims, sheet, turn, material, machine, by_face)
     found = _vertices(pattern, spots, by_face, material, relief)
-    lines, ties = _lines(pattern, spots, by_face, found, material, machine)
-    passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
-    passes = lead_ins.added(passes, _rim(pattern, spots), marks, sheet, material, machine)
+    reliefs = [found.reliefs(own) for own in every]
+    drawn, ties = lines.drawn(pattern, every, by_face, found.stops, reliefs, material, machine)
+    passes = setups.passes(drawn, by_face, marks, material, machine, sheet, turn)
+    passes = lead_ins.added(passes, rims, marks, sheet, material, machine)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
         pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),
         material=material,
         machine=machine,
         sheet=sheet,
-        placement=placement,
+        placement=placements[0],
+        quantity=len(placements),
+        copies=placements[1:],
         flip=turn,
         unassigned=unassigned,
         holes=marks.holes,
         registration=marks.made,
         temperatures=temperatures,
         ties=ties,
-        reliefs=found.reliefs(spots),
+        reliefs=tuple(hole for own in reliefs for hole in own),
         passes=passes,
         figures=measure(passes, machine, sheet, turn),
     )
@@ -140,33 +147,19 @@ def _vertices(
     return _Vertices(stops | {v: d / 2 for v, d in found.items()}, found)
 
 
-def _lines(
-    pattern: CreasePattern,
-    spots: Floats,
-    by_face: ByFace,
-    found: _Vertices,
-    material: Material,
-    machine: Machine,
-) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...]]:
-    """Return what gives the strokes of a face from where the tool is, and the outline's ties."""
-    outline.refuse_snapped_slots(pattern, material.cut)
-    cuts, ties = outline.outer_cut(pattern, spots, material.cut)
-    score = material.score
-    rules.refuse_short_creases(pattern, by_face, found.stops)
-    rows = isinstance(score, Perforation)
-    ends = dict.fromkeys(found.stops, scores.TOUCH) if rows else found.stops
-    holes = found.reliefs(spots)
-
-    def lines(face: Face, start: Floats) -> Lines:
-        drawn = scores.strokes(pattern, spots, by_face[face], ends, score.repeats, start, machine)
-        return Lines(
-            scores.dashed(drawn, score) if isinstance(score, Perforation) else drawn,
-            relief_holes.strokes(holes, material.cut.repeats, start, machine.tools.host_offset),
-            outline.inner_cuts(pattern, spots, material.cut.repeats, start),
-            cuts,
+def _block(
+    pattern: CreasePattern, material: Material, copies: int, grid: tuple[int, int] | None
+) -> Block:
+    """Return the copies that are wanted of a part."""
+    if copies < 1 or (grid is not None and min(grid) < 1):
+        raise CannotPlan("A sheet holds one copy at least, and a grid one row and one column.")
+    if grid is not None and copies not in {1, grid[0] * grid[1]}:
+        raise CannotPlan(
+            f"A grid of {grid[0]} × {grid[1]} holds {grid[0] * grid[1]} copies, and {copies} are "
+            f"wanted. Give one of the two."
         )
-
-    return lines, ties
+    shape = None if grid is None else Grid(*grid)
+    return Block.of(pattern.vertices, material.part_clearance, copies, shape)
 
 
 def _folds(fold: Fold) -> tuple[Finding, ...]:
@@ -180,8 +173,7 @@ def _flip(kind: FlipKind, sheet: Sheet) -> Flip:
 
 def _register(
     kind: RegistrationKind,
-    pattern: CreasePattern,
-    spots: Floats,
+    rims: Sequence[Floats],
     sheet: Sheet,
     turn: Flip,
     material: Material,
@@ -191,7 +183,7 @@ def _register(
     """A sheet that is scored on one face only is never turned, and needs no register."""
     if not all(len(edges) for edges in by_face.values()):
         return Registration()
-    return registration.register(kind, [_rim(pattern, spots)], sheet, turn, material, machine)
+    return registration.register(kind, rims, sheet, turn, material, machine)
 
 
 def _rim(pattern: CreasePattern, spots: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""How the part lies on its blank, and the blank on its carrier."""
+"""How parts lie on their blank, and the blank on its carrier."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
-from scipy.spatial import ConvexHull
 
 from foldmill_fabricate.errors import DoesNotFit
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Placement, Sheet
+from foldmill_fabricate.plan import blanks
+from foldmill_fabricate.plan.grids import Block
 from foldmill_fabricate.sheet import turned
 
 Floats = NDArray[np.float64]
 
-_STEP = 0.5
-"""deg between the rotations tried first; the best of them is then refined."""
-ROOMY = 30.0
-"""mm beside the part on every side that leave room for holes and hands: then it is not turned."""
 
+def lay_blank(
+    machine: Machine,
+    blank: tuple[float, float],
+    carrier: tuple[float, float],
+    block: Block,
+) -> Sheet:
+    """Centre the blank between the carrier's margins; block : what it is to hold.
 
-def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float, float]) -> Sheet:
-    """Centre the blank between the carrier's margins.
-
-    Raises DoesNotFit with the missing millimetres.
+    Raises DoesNotFit with the missing millimetres and the smallest blank that works.
     """
     (width, height), (across, along) = blank, carrier
     bed = machine.bed
@@ -37,9 +37,11 @@ def lay_blank(machine: Machine, blank: tuple[float, float], carrier: tuple[float
         ("blank and the margins are", height + lead + trail, along),
     ):
         if need > room:
+            take = "" if name.startswith("blank") else "Take a smaller carrier. "
             raise DoesNotFit(
                 f"The {name} {need:g} mm, but {machine.slug} has {room:g} mm there: "
-                f"{need - room:g} mm too much. Take a smaller blank or another machine."
+                f"{need - room:g} mm too much. {take}"
+                f"{blanks.advice(block, blank, carrier, machine)}."
             )
     return Sheet(
         width=width,
@@ -56,39 +58,49 @@ def place(points: Floats, sheet: Sheet, clearance: float) -> Placement:
 
     Raises DoesNotFit with the missing millimetres and the smallest blank that works.
     """
-    hull = points[ConvexHull(points).vertices]
+    return lay_out(Block.of(points, clearance), sheet)[0]
 
-    def excess(degrees: float) -> float:
-        width, height = np.ptp(turned(hull, degrees), axis=0)
-        return float(max(width - sheet.width, height - sheet.height))
 
-    angle = 0.0 if excess(0.0) <= -2 * ROOMY else _best_angle(excess)
-    missing = excess(angle) + 2 * clearance
-    spots = turned(hull, angle)
-    width, height = np.ptp(spots, axis=0)
-    if missing > 0:
-        need = [float(np.ceil((side + 2 * clearance) * 10) / 10) for side in (width, height)]
+def lay_out(
+    block: Block, sheet: Sheet, advice: Callable[[], str] | None = None
+) -> tuple[Placement, ...]:
+    """Centre a block on the blank; return where each copy lies, row by row from the lower left.
+
+    advice : which blank would work. Raises DoesNotFit with the missing millimetres, how many copies
+    would fit, and that advice.
+    """
+    turn = block.best(sheet.width, sheet.height)
+    if not turn.fits:
+        size = (sheet.width, sheet.height)
+        works = advice() if advice else _works(block, size)
         raise DoesNotFit(
-            f"The part does not fit on a {sheet.width:g} × {sheet.height:g} mm blank however it is "
-            f"turned: {missing:.1f} mm are missing. The smallest blank that works is "
-            f"{need[0]:g} × {need[1]:g} mm; or scale the design down."
+            f"{_refusal(block, size, turn.missing)} {works}; or scale the design down."
         )
+    spots = turned(block.hull, turn.angle)
     low = spots.min(axis=0)
-    return Placement(
-        angle=angle,
-        dx=round(float((sheet.width - width) / 2 - low[0]), 9),
-        dy=round(float((sheet.height - height) / 2 - low[1]), 9),
-    )
+    width, height = block.size(turn.grid, turn.angle)
+    across, along = np.ptp(spots, axis=0) + block.clearance
+    found = []
+    for number in range(block.count):
+        row, column = divmod(number, turn.grid.columns)
+        x = float((sheet.width - width) / 2 - low[0]) + column * float(across)
+        y = float((sheet.height - height) / 2 - low[1]) + row * float(along)
+        found.append(Placement(angle=turn.angle, dx=round(x, 9), dy=round(y, 9)))
+    return tuple(found)
 
 
-def _best_angle(excess: Callable[[float], float]) -> float:
-    tried = np.arange(0.0, 180.0, _STEP)
-    values = np.array([excess(angle) for angle in tried])
-    best = float(tried[int(np.argmin(np.round(values, 6)))])
-    found = minimize_scalar(
-        excess, bounds=(best - _STEP, best + _STEP), method="bounded", options={"xatol": 1e-9}
-    )
-    fine = float(found.x) if found.fun < excess(best) - 1e-6 else best
-    # A round number reads better on the job sheet; take it where it costs nothing.
-    neat = round(fine, 3)
-    return neat if excess(neat) <= excess(fine) + 1e-6 else fine
+def _works(block: Block, size: tuple[float, float]) -> str:
+    width, height = blanks.smallest(block, like=size) or size
+    return f"The smallest blank that works is {width:g} × {height:g} mm"
+
+
+def _refusal(block: Block, size: tuple[float, float], missing: float) -> str:
+    blank = f"on a {size[0]:g} × {size[1]:g} mm blank however"
+    if block.count == 1:
+        return f"The part does not fit {blank} it is turned: {missing:.1f} mm are missing."
+    what = f"{block.count} copies of the part"
+    if block.shape is not None:
+        what += f" in a grid of {block.shape.columns} × {block.shape.rows}"
+    fit = block.most(*size)
+    could = f"{fit} would fit" if fit else "not even one fits"
+    return f"{what} do not fit {blank} they are turned: {missing:.1f} mm are missing; {could}."

@@ -28,6 +28,8 @@ Relief = Literal["none", "needed", "all"]
 
 SMALLEST = 1.5
 """mm. A knife that trails its axis makes no smaller hole round."""
+TOUCH = 1e-6
+"""mm. An inner cut that ends in the middle of a hole is meant to."""
 MANY = 6
 """Creases from which on the hole is the larger one."""
 SHARES = (2.5, 3.0)
@@ -92,8 +94,11 @@ def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) ->
 
     rims = [shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2) for hole in relief]
     open_edges = (pattern.assignments == 0) | (pattern.assignments == 5)
-    edges = shapely.MultiLineString(list(spots[pattern.edges[open_edges]]))
+    ends = spots[pattern.edges[open_edges]]
     for k, (hole, rim) in enumerate(zip(relief, rims, strict=True)):
+        middle = np.array([hole.x, hole.y])
+        begins_here = (np.hypot(*(ends - middle).T) < TOUCH).any(axis=0)
+        edges = shapely.MultiLineString(list(ends[~begins_here]))
         others = [shapely.distance(rim, other) for other in rims[:k]]
         gap = min([float(shapely.distance(rim, edges)), *map(float, others)])
         if gap < hole.diameter / 2:

@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
-from foldmill_fabricate.materials import CreaseWheel, HalfCut, Stylus, VScore
+from foldmill_fabricate.materials import (
+    CreaseWheel,
+    HalfCut,
+    Perforation,
+    ScoreAndSnap,
+    Stylus,
+    ThroughCut,
+    VScore,
+)
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import relief, shapes, spacing
 
@@ -19,6 +27,8 @@ Indices = NDArray[np.intp]
 
 SHORT_CREASE = 2.0
 """mm of score that must remain between two setbacks: less does not guide a fold."""
+BLADE_STEP = 0.1
+"""mm. Blades are set in such steps: half of one is the least that is sure to go through."""
 
 
 def refuse_short_creases(
@@ -120,6 +130,16 @@ def _force(plan: Plan) -> Iterator[Finding]:
             f"{plan.material.score.force:g} gf are usual.",
             "Try one more repeat on waste.",
         )
+    for process in (plan.material.score, cut):
+        if process.force < min(process.force_needed, tools.max_force):
+            yield Finding(
+                "force-low",
+                Severity.WARNING,
+                plan.material.slug,
+                f"The {process.title} is set to {process.force:g} gf and needs "
+                f"{process.force_needed:g} gf; this machine has {tools.max_force:g} gf.",
+                f"Raise {process.kind}.force in the preset.",
+            )
 
 
 def _depth(plan: Plan) -> Iterator[Finding]:
@@ -133,8 +153,37 @@ def _depth(plan: Plan) -> Iterator[Finding]:
             f"are needed.",
             "Lower the depth ratio.",
         )
+    yield from _through(plan)
     if isinstance(material.score, HalfCut | VScore | CreaseWheel | Stylus):
         yield from _depth_range(material.slug, material.score)
+
+
+def _through(plan: Plan) -> Iterator[Finding]:
+    """Judge what is to go through the sheet, or is to leave so much that it snaps."""
+    material, cut = plan.material, plan.material.cut
+    for process in (material.score, cut):
+        spare = process.exposure - material.thickness
+        if isinstance(process, Perforation | ThroughCut) and spare < BLADE_STEP / 2 - 1e-9:
+            yield Finding(
+                "through-cut-shallow",
+                Severity.WARNING,
+                material.slug,
+                f"The blade of the {process.title} stands out {process.exposure:g} mm for a sheet "
+                f"of {material.thickness:g} mm; a worn tip or an uneven mat leaves "
+                f"{max(0.0, BLADE_STEP / 2 - spare):.2f} mm standing.",
+                f"Set {process.kind}.exposure to {material.thickness + BLADE_STEP:.2f} mm or more.",
+            )
+    if isinstance(cut, ScoreAndSnap):
+        left = material.thickness - cut.exposure
+        if abs(left - cut.web) > BLADE_STEP / 2 + 1e-9:
+            yield Finding(
+                "snap-web",
+                Severity.WARNING,
+                material.slug,
+                f"The blade leaves {left:.2f} mm of the sheet under the outline; {cut.web:g} mm "
+                f"snap off cleanly.",
+                f"Set {cut.kind}.exposure to {material.thickness - cut.web:.2f} mm.",
+            )
 
 
 def _depth_range(slug: str, score: HalfCut | VScore | CreaseWheel | Stylus) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""What of the part's own shape is hard to make: narrow flaps, and holes too tight for the knife."""
+"""What of the part's own shape is hard to make: what is narrow, and holes too tight for knives."""
 
 from __future__ import annotations
 
@@ -10,24 +10,29 @@ from numpy.typing import NDArray
 from foldmill import Assignment, CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.plan import narrow
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 IN_LINE = 0.01
 """mm. Creases whose ends leave one straight line by less are one hinge."""
-ROUND = 3.0
-"""A trailing knife rounds well what has a radius of so many times its offset."""
 
 
 def findings(pattern: CreasePattern, spots: Floats, plan: Plan) -> Iterator[Finding]:
-    """Yield a finding for every narrow flap and every tight hole; spots : (V, 2) mm."""
-    yield from _flaps(pattern, spots, plan.material.min_flap)
+    """Yield a finding for all that is too narrow, and every tight hole; spots : (V, 2) mm."""
+    hanging = list(flaps(pattern, spots))
+    yield from _flaps(spots, hanging, plan.material.min_flap)
+    free = [vertices for vertices, _ in hanging]
+    yield from narrow.facets(pattern, spots, facets(pattern), free, plan)
+    yield from narrow.cuts(pattern, spots, plan)
     yield from _tight_holes(plan)
 
 
-def _flaps(pattern: CreasePattern, spots: Floats, least: float) -> Iterator[Finding]:
-    for vertices, hinge in flaps(pattern, spots):
+def _flaps(
+    spots: Floats, hanging: list[tuple[Indices, Indices]], least: float
+) -> Iterator[Finding]:
+    for vertices, hinge in hanging:
         a, b = spots[hinge]
         along = (b - a) / np.hypot(*(b - a))
         off = spots[vertices] - a
@@ -94,7 +99,7 @@ def _sides(pattern: CreasePattern) -> Indices:
 
 def _tight_holes(plan: Plan) -> Iterator[Finding]:
     tools = plan.machine.tools
-    least = 2 * ROUND * tools.blade_offset
+    least = 2 * narrow.ROUND * tools.blade_offset
     tight = sorted({h.diameter for h in (*plan.holes, *plan.reliefs) if h.diameter < least})
     if tools.blade == "drag" and tight:
         yield Finding(

@@ -1,4 +1,4 @@
-"""What pattern, process rule and placement ask for, worked out from the pattern alone."""
+"""What pattern, process rule and placements ask for, worked out from the pattern alone."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from foldmill import Assignment, CreasePattern
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.cover import Pieces
-from foldmill_fabricate.verify.slit import Slits, slits
+from foldmill_fabricate.verify.laid import Laid
+from foldmill_fabricate.verify.slit import Slits
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -24,28 +25,25 @@ NOWHERE = -1
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """A pattern as it lies on the sheet, and on which face each edge is scored."""
+    """A pattern as its copies lie on the sheet, and on which face each edge is scored."""
 
     plan: Plan
     pattern: CreasePattern
 
     @cached_property
+    def laid(self) -> Laid:
+        """The copies of the pattern on the sheet; edges and vertices below are those of all."""
+        return Laid(self.plan, self.pattern)
+
+    @property
     def spots(self) -> Floats:
-        """(V, 2) mm: the vertices on the sheet: turned about the pattern's origin, then shifted."""
-        placement = self.plan.placement
-        angle = np.radians(placement.angle)
-        x, y = self.pattern.vertices.T
-        return np.column_stack(
-            [
-                x * np.cos(angle) - y * np.sin(angle) + placement.dx,
-                x * np.sin(angle) + y * np.cos(angle) + placement.dy,
-            ]
-        )
+        """(V, 2) mm: the vertices of all copies on the sheet."""
+        return self.laid.spots
 
     @cached_property
     def ends(self) -> Floats:
         """(E, 2, 2) mm: the ends of every edge on the sheet."""
-        ends: Floats = self.spots[self.pattern.edges]
+        ends: Floats = self.spots[self.laid.edges]
         return ends
 
     def lines(self, which: Flags) -> Pieces:
@@ -64,20 +62,20 @@ class Asked:
 
         The second bank is nothing any more: a slit is one line.
         """
-        given = np.asarray(self.pattern.assignments == assignment) & ~self.slits.second
+        given = np.asarray(self.laid.assignments == assignment) & ~self.slits.second
         if assignment is Assignment.B:
             return given & ~self.slits.first
         return given | self.slits.first if assignment is Assignment.C else given
 
-    @cached_property
+    @property
     def slits(self) -> Slits:
         """The slits of the pattern."""
-        return slits(self.pattern)
+        return self.laid.slits
 
     @cached_property
     def mouths(self) -> Floats:
         """(k, 2) mm: where inner cuts come out at the outline, on the sheet."""
-        nodes = self.slits.node[self.pattern.edges]
+        nodes = self.slits.node[self.laid.edges]
         found = np.intersect1d(nodes[self.has(Assignment.C)], nodes[self.rim])
         mouths: Floats = self.spots[found]
         return mouths
@@ -91,8 +89,8 @@ class Asked:
         """
         score = self.plan.material.score
         mountain, valley = {"outside": (0, 1), "inside": (1, 0), "either": (1, 1)}[score.score_face]
-        folds = np.abs(self.pattern.fold_angles) >= score.min_scored_angle
-        face = np.full(len(self.pattern.edges), NOWHERE, np.int8)
+        folds = np.abs(self.laid.fold_angles) >= score.min_scored_angle
+        face = np.full(len(self.laid.edges), NOWHERE, np.int8)
         face[self.has(Assignment.M) & folds] = mountain
         face[self.has(Assignment.V) & folds] = valley
         if self.plan.unassigned in FACES:
@@ -100,25 +98,28 @@ class Asked:
         return face
 
     @cached_property
-    def loop(self) -> Indices:
-        """(n,) the vertices of the outline, past the mouths of slits; none without an outline."""
-        loops = self.pattern.outline()
-        if not loops:
-            return np.zeros(0, np.intp)
-        nodes = self.slits.node[loops[0]]
-        banks = self.slits.node[self.pattern.edges[self.slits.first]]
+    def loops(self) -> list[Indices]:
+        """The vertices (n,) of each copy's outline, past the mouths of slits."""
+        banks = self.slits.node[self.laid.edges[self.slits.first]]
         inside = {frozenset(bank) for bank in banks.tolist()}
-        sides = zip(nodes.tolist(), np.roll(nodes, -1).tolist(), strict=True)
-        kept = np.array([frozenset(side) not in inside for side in sides], bool)
-        loop: Indices = nodes[kept]
-        return loop
+        found = []
+        for outline in self.laid.outlines:
+            nodes = self.slits.node[outline]
+            sides = zip(nodes.tolist(), np.roll(nodes, -1).tolist(), strict=True)
+            kept = np.array([frozenset(side) not in inside for side in sides], bool)
+            found.append(nodes[kept])
+        return found
 
     @cached_property
     def rim(self) -> Flags:
-        """(E,) whether an edge belongs to the outline, not to a loop within it nor to a slit."""
-        found = np.zeros(len(self.pattern.edges), bool)
-        sides = {frozenset(s) for s in zip(self.loop, np.roll(self.loop, -1), strict=True)}
-        nodes = self.slits.node[self.pattern.edges]
+        """(E,) whether an edge belongs to an outline, not to a loop within it nor to a slit."""
+        found = np.zeros(len(self.laid.edges), bool)
+        sides = {
+            frozenset(side)
+            for loop in self.loops
+            for side in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)
+        }
+        nodes = self.slits.node[self.laid.edges]
         for edge in np.flatnonzero(self.has(Assignment.B)).tolist():
             found[edge] = frozenset(nodes[edge].tolist()) in sides
         return found
@@ -134,7 +135,7 @@ class Asked:
         bends = self._bends()
         least = np.where(bends > tolerances.NEARLY_STRAIGHT_DEG, self._short_by(), 0.0)
         most = np.where(bends > tolerances.STRAIGHT_DEG, self._short_by(), 0.0)
-        return least[self.pattern.edges], most[self.pattern.edges]
+        return least[self.laid.edges], most[self.laid.edges]
 
     @cached_property
     def stops_at(self) -> Flags:
@@ -156,7 +157,7 @@ class Asked:
     def _bends(self) -> Floats:
         """Return for each vertex (V,) by how many degrees its scored creases miss one groove."""
         scored = self.score_face != NOWHERE
-        edges = self.slits.node[self.pattern.edges[scored]]
+        edges = self.slits.node[self.laid.edges[scored]]
         steps = self.spots[edges[:, 1]] - self.spots[edges[:, 0]]
         steps /= np.hypot(*steps.T)[:, None]
         count = np.bincount(edges.ravel(), minlength=len(self.spots))
@@ -175,7 +176,7 @@ class Asked:
 
     def _surrounded(self) -> Flags:
         """Tell which places (V,) have paper all round: not at a border, or at the end of a cut."""
-        nodes, size = self.slits.node[self.pattern.edges], len(self.spots)
+        nodes, size = self.slits.node[self.laid.edges], len(self.spots)
         at_border = np.bincount(nodes[self.has(Assignment.B)].ravel(), minlength=size) > 0
         cuts = np.bincount(nodes[self.has(Assignment.C)].ravel(), minlength=size)
         surrounded: Flags = ~at_border & (cuts < 2)
@@ -183,9 +184,11 @@ class Asked:
 
     def name(self, edge: int) -> str:
         """Name an edge for people."""
-        a, b = self.pattern.edges[edge]
+        copy, own = self.laid.split(edge)
+        a, b = self.pattern.edges[own]
         x, y = self.ends[edge].mean(axis=0)
         kinds = {"M": "mountain", "V": "valley", "F": "flat", "B": "outline", "C": "inner cut"}
-        kind = kinds.get(Assignment(int(self.pattern.assignments[edge])).name, "unassigned")
+        kind = kinds.get(Assignment(int(self.laid.assignments[edge])).name, "unassigned")
         kind = "slit" if self.slits.first[edge] else kind
-        return f"{kind} edge {edge} ({a}-{b}) at ({x:.2f}, {y:.2f}) mm"
+        of = f" of copy {copy + 1}" if self.laid.count > 1 else ""
+        return f"{kind} edge {own} ({a}-{b}){of} at ({x:.2f}, {y:.2f}) mm"

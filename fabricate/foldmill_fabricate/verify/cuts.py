@@ -144,18 +144,36 @@ def _tie_findings(asked: Asked) -> list[Finding]:
     if not isinstance(cut, ThroughCut):
         text = f"The outline is made by {cut.title}; there is nothing for a tie to hold."
         return [_error("ties-unasked", "outline", text)] if ties else []
-    if len(ties) < LEAST_TIES:
-        text = f"The outline has {len(ties)} ties; a part needs {LEAST_TIES} to stay in place."
-        found.append(_error("too-few-ties", "outline", text))
-    around = float(asked.lengths[asked.rim].sum())
-    usual = int(around / cut.tie_pitch)
-    if LEAST_TIES <= len(ties) < usual:
-        text = f"{len(ties)} ties hold an outline of {around:.0f} mm; {usual} are usual."
-        found.append(Finding("few-ties", Severity.WARNING, "outline", text))
+    owners = [_owner(asked, tie) for tie in ties]
+    for copy in range(asked.laid.count):
+        found += _enough(asked, cut, copy, owners.count(copy))
     corners = _corners(asked)
     for k, tie in enumerate(ties, 1):
         found += _one_tie(asked, cut, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
     return found
+
+
+def _owner(asked: Asked, tie: Tie) -> int:
+    """Return the copy, 0, 1, 2 …, that a tie holds; of one part, that one; -1 where none."""
+    if asked.laid.count == 1:
+        return 0
+    standing = _bridges(asked, asked.rim, [tie])
+    return asked.laid.split(int(standing.line[0]))[0] if len(standing.line) else -1
+
+
+def _enough(asked: Asked, cut: ThroughCut, copy: int, count: int) -> list[Finding]:
+    """Check that a copy hangs on as many ties as it needs."""
+    where = "outline" if asked.laid.count == 1 else f"outline of copy {copy + 1}"
+    if count < LEAST_TIES:
+        text = f"The outline has {count} ties; a part needs {LEAST_TIES} to stay in place."
+        return [_error("too-few-ties", where, text)]
+    own = asked.laid.edges_of(copy)
+    around = float(asked.lengths[own][asked.rim[own]].sum())
+    usual = int(around / cut.tie_pitch)
+    if count < usual:
+        text = f"{count} ties hold an outline of {around:.0f} mm; {usual} are usual."
+        return [Finding("few-ties", Severity.WARNING, where, text)]
+    return []
 
 
 def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Floats) -> list[Finding]:
@@ -176,12 +194,15 @@ def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Float
 
 
 def _corners(asked: Asked) -> Floats:
-    """Return the corners (n, 2) of the outline, mm: where it turns by more than a named angle.
+    """Return the corners (n, 2) of the outlines, mm: where one turns by more than a named angle.
 
     Where an inner cut comes out is a corner too.
     """
-    loop = asked.spots[asked.loop]
-    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
-    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    turn = np.degrees(np.abs(np.arctan2(cross, (before * after).sum(axis=1))))
-    return np.vstack([loop[turn > tolerances.CORNER_DEG], asked.mouths])
+    found = [asked.mouths]
+    for loop in asked.loops:
+        rim = asked.spots[loop]
+        before, after = rim - np.roll(rim, 1, axis=0), np.roll(rim, -1, axis=0) - rim
+        cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        turn = np.degrees(np.abs(np.arctan2(cross, (before * after).sum(axis=1))))
+        found.append(rim[turn > tolerances.CORNER_DEG])
+    return np.vstack(found)

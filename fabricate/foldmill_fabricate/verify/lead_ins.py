@@ -64,8 +64,7 @@ def _things(asked: Asked) -> list[tuple[str, str, Any]]:
     import shapely
 
     plan = asked.plan
-    part = shapely.coverage_union_all(shapely.polygons(asked.spots[asked.pattern.faces]))
-    found = [("lead-in-on-part", "part", part)]
+    found = [("lead-in-on-part", "part", part) for part in asked.laid.parts]
     found += [
         ("lead-in-place", f"hole {k}", shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2))
         for k, hole in enumerate(plan.holes, 1)

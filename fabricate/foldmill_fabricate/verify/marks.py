@@ -101,7 +101,7 @@ def _room_findings(asked: Asked, mark: Mark, where: str) -> list[Finding]:
     far = np.array([mark.x + mark.across * mark.size, mark.y + mark.upward * mark.size])
     low, high = np.minimum((mark.x, mark.y), far), np.maximum((mark.x, mark.y), far)
     to_edge = min(*low, sheet.width - high[0], sheet.height - high[1])
-    part = shapely.coverage_union_all(shapely.polygons(asked.spots[asked.pattern.faces]))
+    part = shapely.union_all(asked.laid.parts)
     to_part = float(shapely.distance(part, shapely.box(*low, *high)))
     rule = plan.material.holes.part_clearance
     return [

@@ -28,6 +28,8 @@ class Planned:
     """1, 2, 3 … over the operation's strokes."""
     rank: int
     """0, 1, 2 … over the operations of the whole job."""
+    piece: int = 0
+    """Which copy it is said to belong to; 0 for none."""
 
     @property
     def role(self) -> Role:
@@ -64,6 +66,7 @@ def planned(plan: Plan) -> list[Planned]:
                         operation,
                         number,
                         rank,
+                        stroke.piece,
                     )
                     for number, stroke in enumerate(operation.strokes, 1)
                 ]

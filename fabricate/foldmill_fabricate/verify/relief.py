@@ -46,7 +46,7 @@ def _one_hole(asked: Asked, hole: Hole) -> list[Finding]:
     if gaps[vertex] > tolerances.PLAN_MM or not asked.stops_at[vertex]:
         text = "Scores do not stop short of a vertex there, so that it takes nothing away."
         return [_error("relief-astray", _name(hole), text)]
-    creases = int((asked.pattern.edges[asked.score_face != NOWHERE] == vertex).sum())
+    creases = int((asked.laid.edges[asked.score_face != NOWHERE] == vertex).sum())
     material = asked.plan.material
     times = 3.0 if creases > 5 else 2.5
     wanted = max(LEAST, material.relief_diameter, times * material.thickness)

@@ -21,6 +21,8 @@ def report(verification: Verification) -> str:
         f"Largest deviation     {figures.deviation:.4f} mm of {figures.tolerance:.4f} mm allowed",
         f"Pattern               {pattern}",
     ]
+    if figures.copies > 1:
+        lines.append(f"Copies                {figures.copies}")
     lines += [
         f"{face.capitalize():<21} {figures.creases[face]} creases scored, "
         f"{figures.drawn[face] / 1000:.2f} m with the tool down"

@@ -1,4 +1,4 @@
-"""Proof two: the plan is what pattern, process rule and placement ask for. No more and no less."""
+"""Proof two: the plan is what pattern, process rule and placements ask for. No more and no less."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from foldmill.finding import Finding
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify.asked import Asked
 from foldmill_fabricate.verify.coupon import prove_coupon
+from foldmill_fabricate.verify.copies import prove_copies
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
@@ -30,6 +31,7 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
         ]
     return [
         *prove_process(plan),
+        *prove_copies(asked, strokes),
         *prove_creases(asked, strokes),
         *prove_cuts(asked, strokes),
         *prove_relief(asked, strokes),

@@ -39,6 +39,7 @@ class Figures:
     flats: int
     ties: int
     holes: int
+    copies: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,4 +120,5 @@ def _figures(
         flats=pattern.count(Assignment.F),
         ties=len(plan.ties),
         holes=len(plan.holes),
+        copies=1 + len(plan.copies),
     )

@@ -52,10 +52,10 @@ def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
 
 
 def _part(asked: Asked) -> Any:
-    """Return the part on the sheet as one area."""
+    """Return the parts on the sheet as one area."""
     import shapely
 
-    return shapely.coverage_union_all(shapely.polygons(asked.spots[asked.pattern.faces]))
+    return shapely.union_all(asked.laid.parts)
 
 
 def _blank_findings(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:

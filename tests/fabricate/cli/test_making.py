@@ -10,6 +10,7 @@ import pytest
 import stools
 from slit_forms import form
 
+from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate.cli.app import main
 from foldmill_fabricate.passes import Plan
@@ -67,3 +68,41 @@ def test_a_tight_vertex_is_an_error_until_relief_is_asked_for(
     assert foldmill(*words, "--relief", "needed") == 0
     assert len(json.loads(capsys.readouterr().out)["reliefs"]) == 1
     assert foldmill("verify", "job") == 0
+
+
+def test_copies_are_planned_counted_and_verified(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    small = Fold(CreasePattern.from_lines([(0, 0), (90, 0), (90, 90), (0, 90)],
+                                          [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)],
+                                          "BBBBV"))  # fmt: skip
+    Path("small.fold").write_text(fold_file.write(small), encoding="utf-8")
+    assert foldmill("plan", "small.fold", "--grid", "3x2", "-o", "job", "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["quantity"] == 6
+    assert len(told["copies"]) == 5
+    assert foldmill("verify", "job") == 0
+    assert "Copies                6" in capsys.readouterr().out
+    assert foldmill("plan", "small.fold", "--copies", "1", "-o", "one", "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["quantity"] == 1
+    assert "copies" not in told
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--copies", "2"], "1 would fit"),
+        (["--grid", "3by2"], "write COLUMNSxROWS, as 3x2"),
+        (["--grid", "0x2"], "write COLUMNSxROWS, as 3x2"),
+        (["--grid", "2x2", "--copies", "3"], "holds 4 copies, and 3 are wanted"),
+    ],
+)
+def test_copies_that_cannot_be_made_are_refused_in_one_sentence(
+    job: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    assert foldmill("plan", "stool.fold", *words, "-o", "job") == 2
+    told = capsys.readouterr().err
+    assert said in told
+    assert "Traceback" not in told
+    assert not job.exists()

@@ -194,7 +194,7 @@ def _setup(number: int, name: str, used: Machine, *operations: Operation) -> Set
         process="score" if scored else "cut",
         tool=used.tools.station(process.kind),
         exposure=process.exposure,
-        force=process.force,
+        force=min(process.force, used.tools.max_force or 0.0),
         speed=process.speed,
         gates=gates if by_hand else tuple(gate for gate in gates if gate is not Gate.TOOL),
         operations=operations,
