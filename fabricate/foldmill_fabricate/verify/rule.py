@@ -6,8 +6,8 @@ from foldmill import CreasePattern
 from foldmill.finding import Finding
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify.asked import Asked
-from foldmill_fabricate.verify.coupon import prove_coupon
 from foldmill_fabricate.verify.copies import prove_copies
+from foldmill_fabricate.verify.coupon import prove_coupon
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
