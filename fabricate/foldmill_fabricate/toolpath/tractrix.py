@@ -21,6 +21,8 @@ from foldmill.kernels.jit import jit
 _STATIONS = (0.5, 1.0, 2.0)
 """Offsets along a move where the tip is looked at, besides its end."""
 _POWER = 8
+_ALIKE = 0.005
+"""rad. Of two ways that lead to one place with the blade alike, the cheaper goes on."""
 
 
 @jit
@@ -79,19 +81,37 @@ def _next(state: Any, x: float, y: float, tip: Any, lines: Any, blade: Any, out:
 
 
 @jit
+def _like(best: Any, count: int, state: Any) -> int:
+    """Return which kept state stands there too and points nearly the same way; -1 for none."""
+    for k in range(count):
+        if (
+            best[k, 0] == state[0]
+            and best[k, 1] == state[1]
+            and abs(best[k, 2] - state[2]) < _ALIKE
+        ):
+            return k
+    return -1
+
+
+@jit
 def _keep(best: Any, picks: Any, count: int, state: Any, parent: int, choice: int) -> int:
     """Keep a state where it is among the cheapest; return how many are kept."""
-    full = count == len(best)
-    if full and state[4] >= best[count - 1, 4]:
+    k = _like(best, count, state)
+    if k < 0 and count < len(best):
+        k, count = count, count + 1
+    elif k < 0:
+        k = count - 1
+        if state[4] >= best[k, 4]:
+            return count
+    elif state[4] >= best[k, 4]:
         return count
-    k = count - 1 if full else count
     while k > 0 and best[k - 1, 4] > state[4]:
         best[k] = best[k - 1]
         picks[k] = picks[k - 1]
         k -= 1
     best[k] = state
     picks[k, 0], picks[k, 1] = parent, choice
-    return count if full else count + 1
+    return count
 
 
 @jit
