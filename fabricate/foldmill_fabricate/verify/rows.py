@@ -7,6 +7,7 @@ the preset says, but the land at a vertex is never shorter.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -73,7 +74,8 @@ def _short_lands(asked: Asked, score: Perforation, along: Stretches) -> list[Fin
             if land < score.setback - tolerances.UNEVEN_MM and not _goes_on(asked, edge, vertex):
                 text = f"A cut comes within {max(land, 0.0):.2f} mm of the corner at "
                 text += f"{at(asked.spots[vertex])}; a land of {score.setback:g} mm belongs there."
-                found.append(_error("dash-in-corner", asked.name(edge), text))
+                x, y = asked.spots[vertex].tolist()
+                found.append(replace(_error("dash-in-corner", asked.name(edge), text), at=(x, y)))
     return found
 
 
