@@ -11,7 +11,7 @@ import numpy as np
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Face, Pass, Plan
-from foldmill_fabricate.pictures import canvas
+from foldmill_fabricate.pictures import canvas, sheet
 from foldmill_fabricate.verify.faults import Fault, Kind
 from foldmill_fabricate.verify.report import ranked
 from foldmill_fabricate.verify.verification import Verification
@@ -70,6 +70,7 @@ def _draw(axes: Axes, plan: Plan, work: Pass, faults: Sequence[Fault]) -> None:
     colour, line = AS_PLANNED
     canvas.add_lines(axes, _planned(work), color=colour, linewidth=line)
     canvas.legend_entry(axes, "as planned", color=colour, linewidth=line)
+    sheet.draw_lead_ins(axes, sheet.lead_ins(plan, work.face))
     for kind, (colour, line) in LOOKS.items():
         lines = [fault.points for fault in faults if fault.kind is kind]
         if lines:
