@@ -72,8 +72,9 @@ def strayed(
     lines = shapely.MultiLineString(list(ways))
     farthest = gap = 0.0
     for k in range(len(STARTS)):
-        cut = shapely.MultiLineString([tip[k] for tip in tips])
-        points = shapely.points(np.vstack([tip[k] for tip in tips]))
+        mine = [tip[min(k, len(tip) - 1)] for tip in tips]  # those that point alike go on as one
+        cut = shapely.MultiLineString(mine)
+        points = shapely.points(np.vstack(mine))
         farthest = max(farthest, float(shapely.distance(points, lines).max()))
         gap = max(gap, float(lines.difference(cut.buffer(NEAR)).length))
     return farthest, gap
