@@ -4,11 +4,13 @@
 
 Blades of offset 0.25 and 0.9 mm that point twelve ways at first are dragged (tractrix) along the
 holder's ways of a square with its overcut, corners of 60 and 15 degrees and a fan of twelve
-creases, rounded to steps of 0.025 mm; then along the whole programs of a stool, both faces.
-Columns, mm:
+creases, in steps of 0.025 mm; then along the whole programs of a stool, both faces. No way in steps
+sets every tip down nearer than half a step's diagonal, 0.0177 mm. Columns, mm:
 
-tip         largest distance of any of the twelve tips from the lines
-exact       the same before rounding to steps
+tip         largest distance of any of the twelve tips from the lines, in the steps that programs
+            take: those that keep the tip nearest
+rounded     the same where each point of the exact way is rounded by itself
+exact       the same before rounding to steps; of the stool, in steps of 0.001 mm
 gap         length of the lines that no tip passes within 0.02 mm; of the stool, within what its
             proof allows
 no lead-in  the tip's distance where the program believes that the blade points along x
@@ -26,8 +28,10 @@ from numpy.typing import NDArray
 from foldmill import installed
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.formats.hpgl import half_away
+from foldmill_fabricate.machines import Axes
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.toolpath.knife import holder_ways, last_heading, lead_in
+from foldmill_fabricate.toolpath.snapping import Grid
 from foldmill_fabricate.verify import verify
 from foldmill_fabricate.verify.blade import STARTS, dragged
 
@@ -68,8 +72,9 @@ def strayed(
     lines = shapely.MultiLineString(list(ways))
     farthest = gap = 0.0
     for k in range(len(STARTS)):
-        cut = shapely.MultiLineString([tip[k] for tip in tips])
-        points = shapely.points(np.vstack([tip[k] for tip in tips]))
+        mine = [tip[min(k, len(tip) - 1)] for tip in tips]  # those that point alike go on as one
+        cut = shapely.MultiLineString(mine)
+        points = shapely.points(np.vstack(mine))
         farthest = max(farthest, float(shapely.distance(points, lines).max()))
         gap = max(gap, float(lines.difference(cut.buffer(NEAR)).length))
     return farthest, gap
@@ -82,13 +87,19 @@ def rounded(ways: Sequence[Floats]) -> list[Floats]:
 
 def row(name: str, ways: list[Floats], offset: float) -> str:
     """Return one line of the table."""
+    grid = Grid(Axes(units_per_mm=STEPS_PER_MM))
     entry = lead_in(ENTRY, offset, along=0.0)
-    exact = [entry, *holder_ways(ways, offset, last_heading(entry))]
-    tip, gap = strayed(ways, rounded(exact), offset)
+    heading = last_heading(entry)
+    tip, gap = strayed(ways, [entry, *holder_ways(ways, offset, heading, grid)], offset)
+    exact = [entry, *holder_ways(ways, offset, heading)]
+    coarse, _ = strayed(ways, rounded(exact), offset)
     fine, _ = strayed(ways, exact, offset)
     blind, _ = strayed(ways, rounded(holder_ways(ways, offset, 0.0)), offset)
     naive, _ = strayed(ways, rounded(ways), offset)
-    return f"{name:14} {offset:6.2f} {tip:8.4f} {fine:8.4f} {gap:6.3f} {blind:11.3f} {naive:10.3f}"
+    return (
+        f"{name:14} {offset:6.2f} {tip:8.4f} {coarse:8.4f} {fine:8.4f} {gap:6.3f} "
+        f"{blind:11.3f} {naive:10.3f}"
+    )
 
 
 def stool(offset: float) -> str:
@@ -106,14 +117,15 @@ def stool(offset: float) -> str:
         found.append(verify(plan, fold.pattern, hpgl.write(plan, fold)))
     coarse, fine = (each.figures.deviation for each in found)
     gap = 0.0 if all(each.ok for each in found) else float("nan")
-    return f"{'stool':14} {offset:6.2f} {coarse:8.4f} {fine:8.4f} {gap:6.3f}"
+    return f"{'stool':14} {offset:6.2f} {coarse:8.4f} {'':8} {fine:8.4f} {gap:6.3f}"
 
 
 def main() -> None:
     """Print the table."""
-    head = ("tip", "exact", "gap", "no lead-in", "no offset")
+    head = ("tip", "rounded", "exact")
     print(
-        f"{'':14} {'offset':>6} {head[0]:>8} {head[1]:>8} {head[2]:>6} {head[3]:>11} {head[4]:>10}"
+        f"{'':14} {'offset':>6} {head[0]:>8} {head[1]:>8} {head[2]:>8} {'gap':>6} "
+        f"{'no lead-in':>11} {'no offset':>10}"
     )
     for offset in OFFSETS:
         for name, ways in shapes().items():

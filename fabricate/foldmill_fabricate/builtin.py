@@ -8,14 +8,15 @@ from types import ModuleType
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
 from foldmill_fabricate.formats import dxf, hpgl, places, svg
-from foldmill_fabricate.hooks import Format
+from foldmill_fabricate.hooks import Format, Interpreter
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
+from foldmill_fabricate.verify import languages
 
 
 @hookimpl
 def foldmill_hookspecs() -> list[ModuleType]:
-    """Offer the hooks of formats, machines and materials."""
+    """Offer the hooks of formats, interpreters, machines and materials."""
     return [hooks]
 
 
@@ -40,3 +41,9 @@ def foldmill_formats() -> Iterable[Format]:
         Format("hpgl", "HP-GL programs of each set-up or face", hpgl.write, hpgl.layout),
         Format("places", "PNG with the places of what planning found", places.write),
     ]
+
+
+@hookimpl
+def foldmill_interpreters() -> Iterable[Interpreter]:
+    """Offer the languages of programs that ``foldmill_fabricate.verify`` reads."""
+    return [Interpreter("hpgl", "HP-GL", languages.hpgl)]

@@ -1,4 +1,4 @@
-"""The hooks through which formats, machines and materials are offered.
+"""The hooks through which formats, interpreters, machines and materials are offered.
 
 They share the entry-point group ``foldmill`` with the families.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from foldmill import Fold
 from foldmill.hooks import hookspec
@@ -14,7 +15,11 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Plan
 
+if TYPE_CHECKING:
+    from foldmill_fabricate.verify.interpreter import Trace
+
 FORMATS = "foldmill_formats"
+INTERPRETERS = "foldmill_interpreters"
 MACHINES = "foldmill_machines"
 MATERIALS = "foldmill_materials"
 
@@ -31,13 +36,40 @@ class Format:
     None for drawings."""
 
 
-HOOK_TYPES: dict[str, type] = {FORMATS: Format, MACHINES: Machine, MATERIALS: Material}
+@dataclass(frozen=True)
+class Interpreter:
+    """A way to read programs back: what verification knows of a language.
+
+    Whoever offers a format for machines offers its interpreter too, or nothing it writes can be
+    proved. It shares no code with the writer: read the language anew, by the machine's manual.
+    """
+
+    slug: str
+    """The language, as ``language`` of a machine's profile names it."""
+    title: str
+    replay: Callable[[bytes, str, Machine], Trace]
+    """Takes a program, its name for findings, and the machine; says what it makes the machine do.
+    What is wrong in the program becomes findings of the trace; nothing is raised."""
+
+
+HOOK_TYPES: dict[str, type] = {
+    FORMATS: Format,
+    INTERPRETERS: Interpreter,
+    MACHINES: Machine,
+    MATERIALS: Material,
+}
 """What the values of each hook must be."""
 
 
 @hookspec
 def foldmill_formats() -> Iterable[Format]:
     """Return the file formats this plugin writes. Called once per registry."""
+    return ()
+
+
+@hookspec
+def foldmill_interpreters() -> Iterable[Interpreter]:
+    """Return the languages whose programs this plugin can replay. Called once per registry."""
     return ()
 
 

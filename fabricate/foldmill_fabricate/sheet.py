@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foldmill_fabricate.machines import Axes
 from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
 
 Floats = NDArray[np.float64]
@@ -53,6 +54,14 @@ def laid_off(points: ArrayLike, plan: Plan) -> Floats:
         return np.asarray(points, float)
     moved: Floats = turned(points, off.angle) + np.array([off.dx, off.dy])
     return moved
+
+
+def in_steps(points: ArrayLike, axes: Axes) -> Floats:
+    """Turn carrier coordinates (n, 2) mm into machine steps (n, 2), calibrated and not rounded."""
+    x, y = np.asarray(points, float).T
+    xy = np.column_stack([axes.scale_x * (x + y * np.tan(np.radians(axes.skew))), axes.scale_y * y])
+    found: Floats = (xy[:, ::-1] if axes.swap else xy) * axes.units_per_mm
+    return found
 
 
 def seen_by_machine(plan: Plan, face: Face, points: ArrayLike, fit: Fit | None = None) -> Floats:

@@ -21,7 +21,7 @@ from foldmill_fabricate.passes import Face, Plan, ProgramFile
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.sender import Status
 from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.plotter.simulator.draw import svg
+from foldmill_fabricate.plotter.simulator.draw import groups, svg
 from foldmill_fabricate.plotter.simulator.drawing import Imperfection
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.sending import Job, open_job
@@ -50,7 +50,9 @@ def cut(job: Job, pictures: Path) -> Path:
     statuses = [sent.delivery.status for sent in send_job(job, url, SimulatedOperator(url))]
     assert statuses == [Status.EXECUTED] * len(job.plan.programs)
     for face, strokes in devices.behind(url).sheet.strokes.items():
-        write_whole(pictures / f"{face}.svg", svg(strokes, job.plan.machine, face))
+        found = groups(strokes)
+        black = dict.fromkeys(found, "#000000")
+        write_whole(pictures / f"{face}.svg", svg(found, job.plan.machine, face, black))
     return pictures
 
 

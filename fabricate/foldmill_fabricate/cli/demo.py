@@ -78,13 +78,14 @@ def _verify(out: Path, say: Say) -> None:
 def _send(out: Path, say: Say) -> None:
     say("\n4. Send: to a simulated plotter, 9600 baud, 1024 bytes of buffer")
     url = f"sim://{MACHINE}"
-    for sent in send_job(open_job(out), url, SimulatedOperator(url)):
+    job = open_job(out)
+    for sent in send_job(job, url, SimulatedOperator(url)):
         took = f"{sent.delivery.seconds / 60:.1f} min of the machine's time"
         say(
             f"   {sent.program.name:28} {sent.delivery.status}, {sent.delivery.bytes} bytes, {took}"
         )
     simulator = devices.behind(url)
-    for path in draw(simulator.sheet, simulator.machine, out / "as-cut"):
+    for path in draw(simulator.sheet, simulator.machine, out / "as-cut", job.plan):
         say(f"   drawn as cut: {path.relative_to(out)}")
 
 

@@ -107,7 +107,7 @@ def send(
             told = f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}"
             bar.end(told.rstrip())
     if draw is not None:
-        _draw(port, draw, as_json)
+        _draw(port, draw, as_json, job.plan)
     if as_json:
         rows = [
             {
@@ -286,10 +286,10 @@ def _refuse_another_machine(url: str, job: Job) -> None:
         )
 
 
-def _draw(url: str, folder: Path, aside: bool) -> None:
+def _draw(url: str, folder: Path, aside: bool, plan: Plan) -> None:
     from foldmill_fabricate.plotter.simulator import devices
     from foldmill_fabricate.plotter.simulator.draw import draw
 
     simulator = devices.behind(url)
-    for path in draw(simulator.sheet, simulator.machine, folder):
+    for path in draw(simulator.sheet, simulator.machine, folder, plan):
         typer.echo(f"drawn: {path}", err=aside)

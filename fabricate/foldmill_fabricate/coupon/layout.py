@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
@@ -53,6 +54,7 @@ ROWS = (5, 3)
 along the other."""
 LARGE = 250.0
 """mm. On a smaller board a wrong scale shows less, and fewer verniers do."""
+FlipKind = Literal["left-right", "end-over-end"]
 LEAST = 160.0
 """mm. The least side of a board: bars and verniers fill it."""
 TITLES: dict[LadderKind, str] = {
@@ -80,8 +82,8 @@ class Layout:
     left_out: tuple[str, ...]
 
 
-def board(sheet: Sheet, flip: Flip, material: Material) -> Box:
-    """Return the area within which everything lies; raises DoesNotFit for a blank without one.
+def strips(kind: FlipKind, material: Material) -> Box:
+    """Return the widths at the left, bottom, right and top in which nothing is tried, mm.
 
     Holes that the flip maps to each other need two strips across its axis, one of them wider, so
     that a sheet turned the wrong way shows it.
@@ -93,11 +95,20 @@ def board(sheet: Sheet, flip: Flip, material: Material) -> Box:
     wider = strip + DIFFERENCE
     if not material.cut.goes_through:  # then there are no holes, only lead-ins
         strip = wider = LEAD_IN
-    x, y, right, top = (
-        (EDGE, strip, EDGE, wider) if flip.kind == "left-right" else (strip, EDGE, wider, EDGE)
-    )
+    return (EDGE, strip, EDGE, wider) if kind == "left-right" else (strip, EDGE, wider, EDGE)
+
+
+def least_blank(kind: FlipKind, material: Material) -> tuple[float, float]:
+    """Return width and height of the smallest blank that holds bars and verniers, mm."""
+    left, bottom, right, top = strips(kind, material)
+    return LEAST + left + right, LEAST + bottom + top
+
+
+def board(sheet: Sheet, flip: Flip, material: Material) -> Box:
+    """Return the area within which everything lies; raises DoesNotFit for a blank without one."""
+    x, y, right, top = strips(flip.kind, material)
     found = (x, y, sheet.width - right, sheet.height - top)
-    need = (LEAST + x + right, LEAST + y + top)
+    need = least_blank(flip.kind, material)
     if sheet.width < need[0] or sheet.height < need[1]:
         raise DoesNotFit(
             f"A coupon does not fit on a blank of {sheet.width:g} × {sheet.height:g} mm. The "

@@ -10,6 +10,7 @@ import numpy as np
 from foldmill import Assignment, CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate.coupon import layout, setups
+from foldmill_fabricate.coupon.layout import FlipKind
 from foldmill_fabricate.coupon.lines import lines
 from foldmill_fabricate.coupon.trials import trials
 from foldmill_fabricate.ladders import Coupon, Lettering, Side
@@ -18,11 +19,12 @@ from foldmill_fabricate.materials import Kind, Material, Perforation, Score
 from foldmill_fabricate.passes import Face, Flip, Placement, Plan
 from foldmill_fabricate.plan import lead_ins, processes, registration, rules, two_sides
 from foldmill_fabricate.plan.figures import measure
+from foldmill_fabricate.plan.grids import Block
 from foldmill_fabricate.plan.placement import lay_blank
 
+SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
 LIGHTLY = 0.5
 """Share of the force of a score that draws words and lines to measure by."""
-FlipKind = Literal["left-right", "end-over-end"]
 
 
 def make(
@@ -46,6 +48,7 @@ def make(
         machine,
         blank or (material.stock_width, material.stock_height),
         carrier or (machine.bed.carrier_width, machine.bed.carrier_height),
+        Block.of(max(layout.least_blank(flip, material)) * SQUARE, 0.0),
     )
     turn = Flip(kind=flip, axis=(sheet.width if flip == "left-right" else sheet.height) / 2)
     area = layout.board(sheet, turn, material)
@@ -55,7 +58,7 @@ def make(
     rim = fold.pattern.vertices[fold.pattern.outline()[0]]
     marks = registration.register("holes", [rim], sheet, turn, material, machine)
     passes = setups.passes(drawn, marks, coupon, material, machine, sheet, turn)
-    passes = lead_ins.added(passes, rim, marks, sheet, material, machine)
+    passes = lead_ins.added(passes, [rim], marks, sheet, material, machine)
     plan = Plan(
         title=str(fold.meta["title"]),
         pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),

@@ -17,7 +17,7 @@ from foldmill import Fold, UnknownName
 from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.machines import Axes, Dialect
 from foldmill_fabricate.passes import Face, Fit, Plan, SetUp
-from foldmill_fabricate.sheet import seen_by_machine
+from foldmill_fabricate.sheet import in_steps, seen_by_machine
 from foldmill_fabricate.toolpath.ways import ways
 
 Steps = NDArray[np.int64]
@@ -98,10 +98,7 @@ def steps(points: ArrayLike, axes: Axes, where: str) -> Steps:
 
     Raises DoesNotFit, naming ``where`` and the missing mm, outside the range the firmware takes.
     """
-    xy = np.asarray(points, float)
-    x, y = xy.T
-    xy = np.column_stack([axes.scale_x * (x + y * np.tan(np.radians(axes.skew))), axes.scale_y * y])
-    found = half_away((xy[:, ::-1] if axes.swap else xy) * axes.units_per_mm)
+    found = half_away(in_steps(points, axes))
     short = max(int(axes.lowest - found.min()), int(found.max() - axes.highest))
     if short > 0:
         low, high = axes.lowest / axes.units_per_mm, axes.highest / axes.units_per_mm

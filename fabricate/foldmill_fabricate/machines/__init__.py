@@ -262,8 +262,9 @@ class Machine(Sourced):
         json_schema_extra=INFORMATION
     )
     """What kind of machine it is."""
-    language: Literal["hpgl", "gp-gl", "gcode"]
-    """Programs are written in HP-GL; of the others drawings are made."""
+    language: Annotated[str, Field(pattern=r"^[a-z][a-z0-9.+-]*$")]
+    """Programs are written in HP-GL, and in what plugins add; of gp-gl and gcode drawings are made.
+    """
     bed: Bed
     axes: Axes
     tools: Tools

@@ -37,6 +37,8 @@ LOOKS: dict[Key, tuple[str, str, float]] = {
 """Name, colour and width in points; both faces are drawn unmirrored."""
 LETTERS = 105
 """Letters in a line of the title."""
+LEAD_IN = ("#c000c0", 1.4)
+"""Colour and width of the ways in the waste that turn a blade."""
 
 
 def sheet_picture(plan: Plan) -> bytes:
@@ -61,6 +63,7 @@ def draw(axes: Axes, plan: Plan, letters: float = 9) -> None:
             canvas.add_lines(axes, lines, color=colour, linewidth=width)
             label = f"{name}: {len(lines)}" if role is not Role.WITNESS else name
             canvas.legend_entry(axes, label, color=colour, linewidth=width)
+    draw_lead_ins(axes, lead_ins(plan))
     _label_places(axes, plan, span, letters)
     canvas.scale_bar(axes, 0, -0.035 * span, span)
     axes.set_xlim(-0.03 * span, sheet.width + 0.03 * span)
@@ -96,6 +99,25 @@ def copies(plan: Plan) -> list[tuple[int, tuple[float, float]]]:
         x, y = (low + (high - low) * (0.42, 0.58)).tolist()
         found.append((number, (x, y)))
     return found
+
+
+def lead_ins(plan: Plan, face: Face | None = None) -> list[Floats]:
+    """Return the ways that turn a blade in the waste, (n, 2) mm each, of one face or of both."""
+    return [
+        np.asarray(setup.lead_in, float)
+        for work in plan.passes
+        if face is None or work.face is face
+        for setup in work.setups
+        if setup.lead_in
+    ]
+
+
+def draw_lead_ins(axes: Axes, ways: list[Floats]) -> None:
+    """Draw lead-ins into axes, an entry of the legend included; nothing where there are none."""
+    if ways:
+        colour, width = LEAD_IN
+        canvas.add_lines(axes, ways, color=colour, linewidth=width)
+        canvas.legend_entry(axes, f"lead-ins: {len(ways)}", color=colour, linewidth=width)
 
 
 def axis_line(sheet: Sheet, flip: Flip, beyond: float) -> tuple[list[float], list[float]]:

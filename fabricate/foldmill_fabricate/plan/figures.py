@@ -10,6 +10,7 @@ from foldmill_fabricate.passes import Face, Figures, Flip, Pass, SetUp, Sheet
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import motion, order
 from foldmill_fabricate.toolpath.bounds import travel_bound
+from foldmill_fabricate.toolpath.line import waiting
 from foldmill_fabricate.toolpath.ways import ways
 
 Floats = NDArray[np.float64]
@@ -25,6 +26,7 @@ def measure(
     at = np.zeros(2)
     drawn = travel = bound = seconds = 0.0
     strokes = lifts = 0
+    programs: dict[object, list[tuple[list[Floats], Floats]]] = {}
     for one_pass in passes:
         for setup in one_pass.setups:
             paths = _paths(one_pass.face, setup, machine, sheet, flip)
@@ -33,15 +35,21 @@ def measure(
             drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
             travel += order.travel(paths, at)
             bound += _bound(one_pass.face, setup, at, sheet, flip) if bounded else 0.0
-            seconds += _seconds(paths, at, setup, machine)
+            times = _times(paths, at, setup, machine)
+            seconds += float(times.sum()) + (machine.motion.tool_time if setup.tool else 0.0)
+            by_hand = machine.tools.change == "operator"
+            programs.setdefault(setup.number if by_hand else one_pass.face, []).append(
+                (paths, times)
+            )
             at = paths[-1][-1] if paths else at
+    waits = [_waiting(parts, machine) for parts in programs.values()]
     return Figures(
         strokes=strokes,
         lifts=lifts,
         drawn=round(drawn, 3),
         travel=round(travel, 3),
         travel_bound=round(bound, 3),
-        seconds=round(seconds + _put_away(passes, machine), 1),
+        seconds=round(seconds + sum(waits) + _put_away(passes, machine), 1),
     )
 
 
@@ -63,16 +71,23 @@ def _seen(points: Floats, face: Face, sheet: Sheet, flip: Flip) -> Floats:
     return on_carrier(flipped(points, flip) if face is Face.REVERSE else points, sheet)
 
 
-def _seconds(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) -> float:
+def _times(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) -> Floats:
+    """Return how long the tool takes (n, 2) to each path and along it, up and down included, s."""
+    if not paths:
+        return np.zeros((0, 2))
     model = machine.motion
     speed = motion.told_speed(setup.speed, machine)
-    total = model.tool_time if setup.tool else 0.0
-    for path in paths:
-        hop = float(np.hypot(*(path[0] - at)))
-        total += float(motion.move_seconds([hop], model.travel_speed, model.acceleration)[0])
-        total += 2 * model.lift_time + motion.path_seconds(path, speed, model)
-        at = path[-1]
-    return total
+    leaves = np.array([at, *(path[-1] for path in paths[:-1])])
+    hops = np.hypot(*(np.array([path[0] for path in paths]) - leaves).T)
+    travel = motion.move_seconds(hops, model.travel_speed, model.acceleration)
+    drawing = [motion.path_seconds(path, speed, model) for path in paths]
+    return np.column_stack([travel, drawing]) + model.lift_time
+
+
+def _waiting(parts: list[tuple[list[Floats], Floats]], machine: Machine) -> float:
+    """Return for how long the machine waits for its line in one program, s."""
+    paths = [path for own, _ in parts for path in own]
+    return waiting(paths, np.vstack([times for _, times in parts]), machine)
 
 
 def _put_away(passes: tuple[Pass, ...], machine: Machine) -> float:

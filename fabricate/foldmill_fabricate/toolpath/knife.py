@@ -11,9 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from foldmill_fabricate.toolpath.snapping import Grid, Guide
 
 Floats = NDArray[np.float64]
 
@@ -31,20 +34,24 @@ SHARP_DEG = 30.0
 """deg. A blade that is to be turned by more is lifted out for it, where the material says so."""
 
 
-def holder_ways(ways: Sequence[ArrayLike], offset: float, heading: float) -> list[Floats]:
+def holder_ways(
+    ways: Sequence[ArrayLike], offset: float, heading: float, grid: Grid | None = None
+) -> list[Floats]:
     """Return the holder's way (m, 2) for each way of the tip (n, 2), mm, in order of work.
 
-    offset : mm from holder's axis to tip; heading : rad, from tip to holder before the first way.
+    offset : mm from holder's axis to tip; heading : rad, from tip to holder before the first way;
+    grid : the places the machine can go to, chosen so that the tip strays least. Without one the
+    ways are exact.
     """
     found = []
     for way in ways:
-        holder, heading = _holder_way(np.asarray(way, float), offset, heading)
+        holder, heading = _led(_along(np.asarray(way, float), offset, heading), offset, grid)
         found.append(holder)
     return found
 
 
 def lifted_ways(
-    ways: Sequence[ArrayLike], offset: float, heading: float
+    ways: Sequence[ArrayLike], offset: float, heading: float, grid: Grid | None = None
 ) -> list[tuple[Floats, bool]]:
     """Return the holder's ways (m, 2), mm, broken at sharp corners, each with whether it is light.
 
@@ -56,11 +63,9 @@ def lifted_ways(
         for gentle in _between_corners(_moving(np.asarray(way, float))):
             course = float(_courses(gentle)[0])
             if abs(_turn(heading, course)) > np.radians(SHARP_DEG):
-                spot = gentle[0] + offset * _unit(heading)
-                turned = np.vstack([spot[None], _swivel(gentle[0], offset, heading, course)])
+                turned, heading = _led(_about(gentle[0], offset, heading, course), offset, grid)
                 found.append((turned, True))
-                heading = course
-            holder, heading = _holder_way(gentle, offset, heading)
+            holder, heading = _led(_along(gentle, offset, heading), offset, grid)
             found.append((holder, False))
     return found
 
@@ -103,15 +108,55 @@ def _between_corners(way: Floats) -> list[Floats]:
     return [way[a : b + 1] for a, b in pairwise(cuts) if b > a]
 
 
-def _holder_way(way: Floats, offset: float, heading: float) -> tuple[Floats, float]:
-    way = _moving(way)
-    courses = _courses(way)
-    pieces = [(way[0] + offset * _unit(heading))[None]]
-    for start, end, course in zip(way[:-1], way[1:], courses.tolist(), strict=True):
-        pieces.append(_swivel(start, offset, heading, course))
-        pieces.append((end + offset * _unit(course))[None])
+class _Course(NamedTuple):
+    """Where a holder is to go, and how the blade points before and after it, rad."""
+
+    guide: Guide
+    before: float
+    after: float
+
+
+def _led(course: _Course, offset: float, grid: Grid | None) -> tuple[Floats, float]:
+    """Return the holder's way and how the blade points after it."""
+    if grid is None:
+        return course.guide.holder, course.after
+    return grid.snapped(course.guide, offset, course.before)
+
+
+def _along(way: Floats, offset: float, heading: float) -> _Course:
+    """Lead the tip along a way."""
+    way, before = _moving(way), heading
+    legs = [np.array([way[0], way[0]]), *(way[k : k + 2] for k in range(len(way) - 1))]
+    pieces = [_set_down(way[0], offset, heading)]
+    for last, leg, course in zip(legs[:-1], legs[1:], _courses(way).tolist(), strict=True):
+        pieces.append(_swung(leg[0], offset, heading, course, np.stack([last, leg])))
+        end = leg[1:] + offset * _unit(course)
+        pieces.append(Guide(end, leg[1:], np.stack([leg, leg])[None]))
         heading = course
-    return np.vstack(pieces), heading
+    return _Course(_joined(pieces), before, heading)
+
+
+def _about(spot: Floats, offset: float, heading: float, course: float) -> _Course:
+    """Turn the blade about its resting tip."""
+    rest = np.broadcast_to(spot, (2, 2, 2))
+    pieces = [_set_down(spot, offset, heading), _swung(spot, offset, heading, course, rest)]
+    return _Course(_joined(pieces), heading, course)
+
+
+def _set_down(spot: Floats, offset: float, heading: float) -> Guide:
+    rest = np.broadcast_to(spot, (1, 2, 2, 2))
+    return Guide((spot + offset * _unit(heading))[None], spot[None], rest)
+
+
+def _swung(spot: Floats, offset: float, before: float, after: float, lines: Floats) -> Guide:
+    """Swing the holder about the tip; it may be near the lines (2, 2, 2) meanwhile."""
+    holder = _swivel(spot, offset, before, after)
+    near = np.broadcast_to(lines, (len(holder), 2, 2, 2))
+    return Guide(holder, np.full(holder.shape, np.nan), near)
+
+
+def _joined(pieces: Sequence[Guide]) -> Guide:
+    return Guide(*(np.concatenate(parts) for parts in zip(*pieces, strict=True)))
 
 
 def _swivel(tip: Floats, offset: float, before: float, after: float) -> Floats:

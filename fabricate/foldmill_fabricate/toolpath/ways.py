@@ -2,7 +2,8 @@
 
 Where the machine makes up for a blade's offset, or the tool has none, these are the ways of the
 tip. Elsewhere they are the holder's, a lead-in first. They are worked out as the machine sees the
-sheet: a mirrored holder's way would not lead a blade along the mirrored line it starts on.
+sheet: a mirrored holder's way would not lead a blade along the mirrored line it starts on. And they
+go by the machine's own steps, because rounding a holder's way moves the tip.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import SetUp
 from foldmill_fabricate.toolpath import knife
+from foldmill_fabricate.toolpath.snapping import Grid
 from foldmill_fabricate.toolpath.traversal import traversal
 
 Floats = NDArray[np.float64]
@@ -41,8 +43,9 @@ def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
     offset = machine.tools.host_offset
     if not offset:
         return [Way(tip) for tip in tips]
-    entry = [Way(see(setup.lead_in))] if setup.lead_in else []
+    grid = Grid(machine.axes)
+    entry = [Way(grid.rounded(see(setup.lead_in)))] if setup.lead_in else []
     heading = knife.last_heading(entry[0].points) if entry else 0.0
     if setup.swivel_force:
-        return entry + [Way(*way) for way in knife.lifted_ways(tips, offset, heading)]
-    return entry + [Way(way) for way in knife.holder_ways(tips, offset, heading)]
+        return entry + [Way(*way) for way in knife.lifted_ways(tips, offset, heading, grid)]
+    return entry + [Way(way) for way in knife.holder_ways(tips, offset, heading, grid)]

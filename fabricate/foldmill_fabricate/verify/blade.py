@@ -8,7 +8,7 @@ each step is exact however long it is. With the pen up the blade keeps its direc
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from math import atan, pi, tan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,10 @@ STARTS = np.radians(np.arange(0.0, 360.0, 30.0))
 _STEPS = 12.0 * np.linspace(0.0, 1.0, 97)[1:] ** 2
 """Stations along a straight line, in offsets: fine while the blade turns; after twelve offsets the
 angle is 6e-6 of itself."""
-_FEW = _STEPS[7::8]
-"""Stations where the blade hardly turns."""
+_COARSE = np.where(np.arange(96) % 8 == 7, _STEPS, np.inf)
+"""The same where the blade hardly turns: every eighth, the others nowhere."""
+_SAME = 1e-9
+"""rad. Blades that point this nearly the same way draw the same: 1e-9 mm apart at the most."""
 _SHORT = 0.5
 """Offsets. The tip hardly goes on along a line as short as a chord of a swivel."""
 _HARDLY = 0.05
@@ -42,31 +44,64 @@ def dragged(
     """Yield for each way of the holder (m, 2), mm, where tips go that point variously at first.
 
     headings : (k,) rad, from tip to holder before the first way. Yields the tips' ways (k, n, 2)
-    and their headings (k, n) there; the last are those before the next way.
+    and their headings (k, n) there; the last are those before the next way. Blades that have come
+    to point the same way go on as one, k = 1.
     """
     for path in paths:
         ways, turned = _drag(path, offset, headings)
         yield ways, turned
         headings = turned[:, -1]
+        if np.ptp(_wrapped(headings - headings[0])) < _SAME:
+            headings = headings[:1]
 
 
 def _drag(path: Floats, offset: float, headings: Floats) -> tuple[Floats, Floats]:
-    holders, angles = [path[:1]], [headings[:, None]]
-    for start, end in pairwise(path):
-        length = float(np.hypot(*(end - start)))
-        if length == 0:
-            continue
-        course = float(np.arctan2(*(end - start)[::-1]))
-        astray = _wrapped(angles[-1][:, -1] - course)
-        coarse = length < _SHORT * offset or np.abs(astray).max() < _HARDLY
-        table = _FEW if coarse else _STEPS
-        stations = np.append(table[table * offset < length] * offset, length)
-        left = np.tan(astray / 2)[:, None] * np.exp(-stations / offset)
-        angles.append(course + 2 * np.arctan(left))
-        holders.append(start + (stations / length)[:, None] * (end - start))
-    turned = np.hstack(angles)
+    """Return the ways (k, n, 2) and headings (k, n) of tips along one way of the holder (m, 2)."""
+    steps = np.diff(path, axis=0)
+    moves = steps.any(axis=1)
+    steps, starts = steps[moves], path[:-1][moves]
+    lengths, courses = np.hypot(*steps.T), np.arctan2(steps[:, 1], steps[:, 0])
+    left = _left(lengths, courses, offset, headings)
+    coarse = (lengths < _SHORT * offset) | (np.abs(left).max(axis=0) < np.tan(_HARDLY / 2))
+    owner, gone = _stations(lengths, coarse, offset)
+    turned = courses[owner] + 2 * np.arctan(left[:, owner] * np.exp(-gone / offset))
+    turned = np.hstack([headings[:, None], turned])
+    spots = starts[owner] + (gone / lengths[owner])[:, None] * steps[owner]
     arms = np.stack([np.cos(turned), np.sin(turned)], axis=-1)
-    return np.vstack(holders) - offset * arms, turned
+    return np.vstack([path[:1], spots]) - offset * arms, turned
+
+
+def _left(lengths: Floats, courses: Floats, offset: float, headings: Floats) -> Floats:
+    """Return tan(φ0/2) (k, m) of each blade where each straight line begins."""
+    fading = np.exp(-lengths / offset)
+    if len(headings) == 1:
+        return np.array([_one_left(courses.tolist(), fading.tolist(), float(headings[0]))])
+    found = np.zeros((len(headings), len(courses)))
+    for k, (course, fade) in enumerate(zip(courses.tolist(), fading.tolist(), strict=True)):
+        found[:, k] = np.tan(_wrapped(headings - course) / 2)
+        headings = course + 2 * np.arctan(found[:, k] * fade)
+    return found
+
+
+def _one_left(courses: list[float], fading: list[float], heading: float) -> list[float]:
+    found = []
+    for course, fade in zip(courses, fading, strict=True):
+        left = tan(((heading - course + pi) % (2 * pi) - pi) / 2)
+        heading = course + 2 * atan(left * fade)
+        found.append(left)
+    return found
+
+
+def _stations(
+    lengths: Floats, coarse: NDArray[np.bool_], offset: float
+) -> tuple[NDArray[np.intp], Floats]:
+    """Return the line (n,) of each place where tips are looked at, and how far along it, mm."""
+    tables = np.where(coarse[:, None], _COARSE, _STEPS) * offset
+    inside = tables < lengths[:, None]
+    places = np.hstack([np.where(inside, tables, np.inf), lengths[:, None]])
+    kept = np.isfinite(places)
+    owner, _ = np.nonzero(kept)
+    return owner, places[kept]
 
 
 def _wrapped(angles: Floats) -> Floats:

@@ -157,7 +157,7 @@ def _too_much(asked: Asked, face: int, drawn: Pieces, wrong: Flags) -> list[Find
         if least[edge, 0] < (low + high) / 2 < asked.lengths[edge] - least[edge, 1]:
             text = f"{high - low:.2f} mm of it are scored twice on the {FACES[face]}."
             found.append(_error("scored-twice", asked.name(edge), text))
-        else:
+        elif not isinstance(asked.plan.material.score, Perforation):  # rows tell of their own ends
             setback = least[edge].max()
             text = f"Its score runs {high - low:.2f} mm into the setback of {setback:g} mm."
             found.append(_error("setback", asked.name(edge), text))

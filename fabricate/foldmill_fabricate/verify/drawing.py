@@ -108,7 +108,11 @@ class Drawing:
         """How far any corner of either lies from the other, mm; 0 where one of them is empty."""
         if not len(self.drawn.line) or not len(self.wanted.line):
             return 0.0
-        return max(_farthest(self.drawn, self.wanted), _farthest(self.wanted, self.drawn))
+        found = self._pairs
+        return max(
+            _farthest(self.drawn, self.wanted, found.i, found.j, self.tolerance),
+            _farthest(self.wanted, self.drawn, found.j, found.i, self.tolerance),
+        )
 
     def faulty_share(self) -> float:
         """Return which share of what was to be drawn is missing or was drawn elsewhere."""
@@ -250,10 +254,36 @@ def _often(times: float) -> str:
     return f"{many} {'more' if times > 0 else 'less'}"
 
 
-def _farthest(these: Pieces, those: Pieces) -> float:
+def _farthest(these: Pieces, those: Pieces, i: Indices, j: Indices, near: float) -> float:
+    """Return how far any end of these pieces lies from those, mm.
+
+    i, j : the pairs that come nearer than ``near``; for other ends all are looked through.
+    """
+    gaps = np.full((len(these.line), 2), np.inf)
+    for end in (0, 1):
+        np.minimum.at(gaps[:, end], i, _gaps(these.ends[i, end], those.ends[j]))
+    lost = gaps > near
+    if lost.any():
+        gaps[lost] = _any_gaps(these.ends[lost], those)
+    return float(gaps.max())
+
+
+def _gaps(points: Floats, ends: Floats) -> Floats:
+    """Return the distances (n,) of points (n, 2) from straight pieces (n, 2, 2)."""
+    course, arm = ends[:, 1] - ends[:, 0], points - ends[:, 0]
+    share = np.clip((arm * course).sum(axis=1) / (course * course).sum(axis=1), 0.0, 1.0)
+    gaps: Floats = np.hypot(*(arm - share[:, None] * course).T)
+    return gaps
+
+
+def _any_gaps(points: Floats, those: Pieces) -> Floats:
+    """Return the distances (n,) of points (n, 2) from the nearest of all pieces."""
     import shapely
 
     tree = shapely.STRtree(shapely.linestrings(those.ends))
-    points = shapely.points(these.ends.reshape(-1, 2))
-    _, gaps = tree.query_nearest(points, all_matches=False, return_distance=True)
-    return float(np.max(gaps))
+    found, gaps = tree.query_nearest(
+        shapely.points(points), all_matches=False, return_distance=True
+    )
+    nearest = np.zeros(len(points))
+    nearest[found[0]] = gaps
+    return nearest

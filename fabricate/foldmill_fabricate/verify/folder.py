@@ -28,11 +28,11 @@ class JobFiles:
     pattern: CreasePattern
     pattern_bytes: bytes
     programs: Mapping[str, bytes]
-    """Every ``.hpgl`` file, by name."""
+    """Every file that the plan names as a program, and every ``.hpgl`` file, by name."""
 
 
 def read_folder(path: str | Path) -> JobFiles:
-    """Read ``plan.json``, ``pattern.fold`` and the ``.hpgl`` programs of a folder.
+    """Read ``plan.json``, ``pattern.fold`` and the programs of a folder.
 
     Raises UnreadableFile where plan or pattern are missing or not what their names say, for then
     there is nothing to compare with.
@@ -40,7 +40,9 @@ def read_folder(path: str | Path) -> JobFiles:
     folder = Path(path)
     plan = _plan(folder)
     data = _bytes(folder, PATTERN)
-    programs = {file.name: file.read_bytes() for file in sorted(folder.glob("*.hpgl"))}
+    named = [folder / Path(file.name).name for file in plan.programs]
+    files = {file for file in [*named, *folder.glob("*.hpgl")] if file.is_file()}
+    programs = {file.name: file.read_bytes() for file in sorted(files)}
     return JobFiles(plan, _pattern(data, folder / PATTERN), data, programs)
 
 

@@ -1,30 +1,22 @@
-"""Which interpreter replays which language of programs. A dialect to come adds one entry."""
+"""Which interpreter replays which language of programs: ours, and those that plugins offer.
+
+A language is added through the hook ``foldmill_interpreters``, beside the format that writes it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from types import MappingProxyType
-
-from foldmill import UnknownName
+from foldmill import installed
+from foldmill_fabricate.hooks import INTERPRETERS, Interpreter
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.verify.interpreter import Trace, interpret
 
-Interpreter = Callable[[bytes, str, Machine], Trace]
-"""Takes a program, its name for findings, and the machine; says what it makes the machine do. What
-is wrong in the program becomes findings of the trace; nothing is raised."""
 
-
-def _hpgl(program: bytes, name: str, machine: Machine) -> Trace:
+def hpgl(program: bytes, name: str, machine: Machine) -> Trace:
+    """Replay HP-GL; takes and returns what every interpreter does."""
     return interpret(program, name, selects=machine.tools.selects)
-
-
-INTERPRETERS: Mapping[str, Interpreter] = MappingProxyType({"hpgl": _hpgl})
-"""By the language of the machine's profile."""
 
 
 def replay(program: bytes, name: str, machine: Machine) -> Trace:
     """Run a program on paper; raises UnknownName for a language that nobody interprets."""
-    known = INTERPRETERS.get(machine.language)
-    if known is None:
-        raise UnknownName.of("language of programs", machine.language, INTERPRETERS)
-    return known(program, name, machine)
+    found: Interpreter = installed().get(INTERPRETERS, "language of programs", machine.language)
+    return found.replay(program, name, machine)

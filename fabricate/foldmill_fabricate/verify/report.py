@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
-from foldmill.finding import Severity
+from collections.abc import Sequence
+from textwrap import fill
+
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate.verify import wording
 from foldmill_fabricate.verify.asked import FACES
 from foldmill_fabricate.verify.verification import Verification
+
+WIDTH = 96
+"""Letters in a line."""
 
 
 def report(verification: Verification) -> str:
@@ -15,6 +22,7 @@ def report(verification: Verification) -> str:
     lines = [
         title,
         "=" * len(title),
+        _verdict(verification),
         "",
         f"Programs replayed     {figures.programs}",
         f"Strokes of the plan   {figures.strokes}",
@@ -32,12 +40,36 @@ def report(verification: Verification) -> str:
     return "\n".join([*lines, *_findings(verification), "", _verdict(verification), ""])
 
 
+def ranked(findings: Sequence[Finding]) -> list[list[Finding]]:
+    """Return findings by kind, errors first; numbered through they are those of the report."""
+    worst = list(reversed(Severity))
+    kinds: dict[tuple[Severity, str], list[Finding]] = {}
+    for finding in findings:
+        kinds.setdefault((finding.severity, finding.code), []).append(finding)
+    return [kinds[key] for key in sorted(kinds, key=lambda key: worst.index(key[0]))]
+
+
 def _findings(verification: Verification) -> list[str]:
     if not verification.findings:
         return ["Findings: none."]
-    order = list(reversed(Severity))
-    ranked = sorted(verification.findings, key=lambda finding: order.index(finding.severity))
-    return ["Findings:", *(f"  {f.severity:<8} {f.code:<18} {f}" for f in ranked)]
+    lines, number = ["Findings:"], 1
+    for kind in ranked(verification.findings):
+        lines += ["", *_kind(kind, number)]
+        number += len(kind)
+    return lines
+
+
+def _kind(kind: list[Finding], number: int) -> list[str]:
+    """Return the lines of one kind of finding: a title, each of them numbered, what to do."""
+    one = kind[0]
+    count = "" if kind[-1].message.endswith("more of this kind.") else f": {len(kind)}"
+    lines = [f"{one.severity.upper()}  {wording.title(one.code)} ({one.code}){count}"]
+    for k, finding in enumerate(kind, number):
+        head = f"{k:>4}. "
+        lines.append(fill(f"{head}{finding}", WIDTH, subsequent_indent=" " * len(head)))
+    if not one.remedy and wording.remedy(one.code):
+        lines.append(f"      To do: {wording.remedy(one.code)}")
+    return lines
 
 
 def _verdict(verification: Verification) -> str:

@@ -7,6 +7,7 @@ the preset says, but the land at a vertex is never shorter.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.asked import NOWHERE, Asked
-from foldmill_fabricate.verify.cover import Pieces, pairs, uncovered
+from foldmill_fabricate.verify.cover import Pieces, Stretches, pairs, uncovered
 from foldmill_fabricate.verify.planned import Planned, at
 
 STRETCH = 2.0
@@ -34,18 +35,21 @@ def prove_rows(
         for stroke in strokes
         if stroke.length > STRETCH * score.cut + tolerances.UNEVEN_MM
     ]
-    return found + _long_lands(asked, score, drawn)
+    wanted = asked.lines(asked.score_face != NOWHERE)
+    _, along, _, _ = pairs(drawn, wanted, tolerances.PLAN_MM).along()
+    found += _long_lands(asked, score, wanted, along)
+    return found + _short_lands(asked, score, along)
 
 
 def _error(code: str, where: str, message: str) -> Finding:
     return Finding(code, Severity.ERROR, where, message)
 
 
-def _long_lands(asked: Asked, score: Perforation, drawn: Pieces) -> list[Finding]:
+def _long_lands(
+    asked: Asked, score: Perforation, wanted: Pieces, along: Stretches
+) -> list[Finding]:
     """Find stretches of creases that are left whole for longer than any land may be."""
     most = STRETCH * max(score.gap, score.setback)
-    wanted = asked.lines(asked.score_face != NOWHERE)
-    _, along, _, _ = pairs(drawn, wanted, tolerances.PLAN_MM).along()
     whole = uncovered(wanted, along)
     return [
         _error(
@@ -56,6 +60,44 @@ def _long_lands(asked: Asked, score: Perforation, drawn: Pieces) -> list[Finding
         for edge, low, high in zip(whole.line, whole.low, whole.high, strict=True)
         if high - low > most + tolerances.UNEVEN_MM
     ]
+
+
+def _short_lands(asked: Asked, score: Perforation, along: Stretches) -> list[Finding]:
+    """Find rows whose first or last cut comes nearer to a vertex than a land is long."""
+    begins, ends = asked.lengths.copy(), np.zeros(len(asked.lengths))
+    np.minimum.at(begins, along.line, along.low)
+    np.maximum.at(ends, along.line, along.high)
+    found = []
+    for edge in np.unique(along.line).tolist():
+        lands = float(begins[edge]), float(asked.lengths[edge] - ends[edge])
+        for vertex, land in zip(asked.pattern.edges[edge].tolist(), lands, strict=True):
+            if land < score.setback - tolerances.UNEVEN_MM and not _goes_on(asked, edge, vertex):
+                text = f"A cut comes within {max(land, 0.0):.2f} mm of the corner at "
+                text += f"{at(asked.spots[vertex])}; a land of {score.setback:g} mm belongs there."
+                x, y = asked.spots[vertex].tolist()
+                found.append(replace(_error("dash-in-corner", asked.name(edge), text), at=(x, y)))
+    return found
+
+
+def _goes_on(asked: Asked, edge: int, vertex: int) -> bool:
+    """Tell whether a row may go on straight through a vertex, into another crease."""
+    if asked.stops_at[vertex]:
+        return False
+    node = asked.slits.node[vertex]
+    nodes = asked.slits.node[asked.pattern.edges]
+    others = np.flatnonzero((asked.score_face != NOWHERE) & (nodes == node).any(axis=1))
+    turns = [_course(asked, other, node) for other in others.tolist() if other != edge]
+    mine = _course(asked, edge, node)
+    opposite = [abs((turn - mine) % 360 - 180) for turn in turns]
+    return min(opposite, default=180.0) <= tolerances.NEARLY_STRAIGHT_DEG
+
+
+def _course(asked: Asked, edge: int, node: int) -> float:
+    """Return the direction in which an edge leaves a node, deg."""
+    a, b = asked.pattern.edges[edge]
+    step = asked.spots[b] - asked.spots[a]
+    step = step if asked.slits.node[a] == node else -step
+    return float(np.degrees(np.arctan2(step[1], step[0])))
 
 
 def share(score: object) -> float:

@@ -16,6 +16,7 @@ from matplotlib.image import imread
 
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.pictures import faults_picture
+from foldmill_fabricate.pictures.faults import place
 from foldmill_fabricate.verify import Kind, Verification, verify
 
 RED, ORANGE, VIOLET = (0xD0, 0x10, 0x10), (0xF0, 0x78, 0x00), (0x70, 0x00, 0xB0)
@@ -74,3 +75,20 @@ def test_a_missing_stroke_is_where_it_should_be_and_a_moved_one_says_by_how_much
     }
     (moved,) = verified(programs.a_stroke_is_moved_by_a_twentieth_of_a_mm(good())).faults
     assert moved.shift == pytest.approx((-0.05, 0.0), abs=0.02)  # mirrored on the reverse
+
+
+def test_a_fault_that_is_no_line_is_ringed_where_it_is_on_the_face_it_speaks_of() -> None:
+    job = plans.replanned(good(), plans.a_tie_is_in_a_corner)
+    found = verified(job)
+    assert found.faults == ()
+    (finding,) = found.findings
+    tie = job.plan.ties[0]
+    assert place(finding) == pytest.approx((tie.x, tie.y), abs=0.01)
+    assert len(pixels(faults_picture(job.plan, found), RED))
+
+
+def test_a_finding_in_a_program_is_marked_on_that_programs_face() -> None:
+    job = programs.a_line_is_extra(good())
+    inked = pixels(faults_picture(job.plan, verified(job)), RED)
+    assert len(inked)
+    assert (inked[:, 1] < 0.5).all()

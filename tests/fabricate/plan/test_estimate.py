@@ -52,10 +52,21 @@ def simulated(plan: Plan, fold: Fold, used: Machine) -> tuple[float, float]:
 @pytest.mark.parametrize("name", JOBS)
 def test_the_estimate_is_within_three_percent_of_the_simulators_clock(name: str) -> None:
     slug, made = JOBS[name]
-    plan = make(made(), material(), machine(slug))
-    clock, moving = simulated(plan, made(), machine(slug))
-    assert plan.figures.seconds == pytest.approx(clock, rel=0.03)
-    assert plan.figures.seconds == pytest.approx(moving, rel=0.005)
+    used = machine(slug)
+    assert used.serial.baud == 9600
+    plan = make(made(), material(), used)
+    clock, moving = simulated(plan, made(), used)
+    assert plan.figures.seconds == pytest.approx(clock, rel=0.02)
+    assert plan.figures.seconds > moving
+
+
+@pytest.mark.parametrize("used", [machine(), knife_job.knife()], ids=lambda each: each.slug)
+def test_a_slow_line_is_counted_where_the_machine_waits_for_it(used: Machine) -> None:
+    slow = used.model_copy(update={"serial": used.serial.model_copy(update={"baud": 2400})})
+    plan = make(knife_job.fold(), material(), slow)
+    clock, moving = simulated(plan, knife_job.fold(), slow)
+    assert moving < 0.8 * clock
+    assert plan.figures.seconds == pytest.approx(clock, rel=0.02)
 
 
 def test_the_estimate_of_a_drag_knife_counts_its_swivels() -> None:

@@ -208,7 +208,7 @@ def into_the_vertex(strokes: tuple[Stroke, ...]) -> tuple[Stroke, ...]:
         (without_two, "missing-score"),
         (with_one_twice, "scored-twice"),
         (with_three_in_one, "perforation-cut"),
-        (into_the_vertex, "setback"),
+        (into_the_vertex, "dash-in-corner"),
     ],
 )
 def test_a_wrong_row_of_cuts_is_found(change: object, code: str) -> None:

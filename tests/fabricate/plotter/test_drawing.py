@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fabricate.verify import knife_job
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.simulator.draw import draw, groups, png, svg
 from foldmill_fabricate.plotter.simulator.drawing import Drawn
+from foldmill_fabricate.plotter.simulator.legend import LEAD_IN, OTHERS, UNPLANNED
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
 Make = Callable[..., Machine]
@@ -80,7 +82,10 @@ def test_a_sheet_is_not_turned_with_the_tool_in_it(machine: Make) -> None:
 def test_the_drawing_is_in_millimetres_with_y_up_and_a_group_per_setting(machine: Make) -> None:
     cutter = machine()
     simulator = drawn(cutter, b"SP1;VS8;PU400,800;PD1200,800;PU;SP2;PD1200,801;PU;")
-    root = ElementTree.fromstring(svg(simulator.sheet.strokes[Face.FRONT], cutter, "Front & <all>"))
+    found = groups(simulator.sheet.strokes[Face.FRONT])
+    root = ElementTree.fromstring(
+        svg(found, cutter, "Front & <all>", dict.fromkeys(found, "#000000"))
+    )
     assert root.get("width") == "600mm"
     assert root.get("viewBox") == "0 0 600 600"
     names = [group.findtext(f"{SVG}title") for group in root.findall(f"{SVG}g")]
@@ -109,6 +114,47 @@ def test_both_faces_are_written_and_the_same_strokes_give_the_same_bytes(
     assert len(paths) == 4
     front = simulator.sheet.strokes[Face.FRONT]
     title = "Front, as generic-hpgl-600 saw it"
-    assert paths[1].read_bytes() == png(front, cutter, title)
+    own = {"tool 1, 80 mm/s, 80 gf": OTHERS[0]}
+    assert paths[1].read_bytes() == png(groups(front), cutter, title, own)
     assert paths[1].read_bytes() != paths[3].read_bytes()
     assert list(groups(front)) == ["tool 1, 80 mm/s, 80 gf"]
+
+
+def test_a_setting_has_one_colour_on_both_faces(machine: Make, tmp_path: Path) -> None:
+    cutter = machine()
+    simulator = drawn(cutter, b"SP1;VS8;PD1200,800;PU;VS4;PD9,9;PU;")
+    simulator.flip()
+    simulator.write(b"VS4;PD800,900;PU;")
+    simulator.rest()
+    front, _, reverse, _ = draw(simulator.sheet, cutter, tmp_path)
+    one, other = (colours_in(path.read_bytes()) for path in (front, reverse))
+    assert len(set(one.values())) == 2
+    assert other == {"tool 1, 40 mm/s": one["tool 1, 40 mm/s"]}
+
+
+def test_what_a_plan_makes_has_a_name_and_one_colour_on_both_faces(tmp_path: Path) -> None:
+    job = knife_job.job(0.9)
+    serial = job.plan.machine.serial.model_copy(update={"buffer": 10**6})
+    simulator = Simulator(job.plan.machine.model_copy(update={"serial": serial}))
+    for file in job.plan.programs:
+        if file.face is not simulator.sheet.up:
+            simulator.flip()
+        simulator.write(job.programs[file.name])
+        simulator.rest()
+    simulator.write(b"PU20000,20000;PD20400,20000;PU;")
+    simulator.rest()
+    front, _, reverse, _ = draw(simulator.sheet, job.plan.machine, tmp_path, job.plan)
+    one, other = (colours_in(path.read_bytes()) for path in (front, reverse))
+    scores = f"scores, {job.plan.material.score.title}"
+    outline = f"outline, {job.plan.material.cut.title}"
+    assert set(one) == {LEAD_IN, "registration holes", "witness mark", scores}
+    assert set(other) == {LEAD_IN, scores, outline, UNPLANNED}
+    assert one[scores] == other[scores]
+    assert one[LEAD_IN] == other[LEAD_IN]
+    assert len({**one, **other}) == len({*one.values(), *other.values()})
+
+
+def colours_in(drawing: bytes) -> dict[str, str]:
+    """Return the colour of each group of an SVG, by its title."""
+    found = ElementTree.fromstring(drawing).findall(f"{SVG}g")
+    return {str(g.findtext(f"{SVG}title")): str(g.get("style")).split(":")[-1] for g in found}

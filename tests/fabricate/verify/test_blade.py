@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from foldmill_fabricate.verify.blade import tips
+from foldmill_fabricate.verify.blade import STARTS, dragged, tips
 
 SQUARE = 6 * np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]], float)
 
@@ -45,3 +45,18 @@ def test_corners_are_cut_short_by_no_more_than_the_offset() -> None:
     (track,) = tips([SQUARE], 0.25)
     corner = np.hypot(*(track - SQUARE[2]).T).min()
     assert 0.02 < corner < 0.25
+
+
+def test_blades_that_have_come_to_point_the_same_way_go_on_as_one() -> None:
+    paths = [SQUARE, SQUARE[:3] + 50, SQUARE[1:] + 9]
+    ways = list(dragged(paths, 0.25, STARTS))
+    assert [len(tip) for tip, _ in ways] == [12, 1, 1]
+    for start in STARTS.tolist():
+        alone = tips(paths, 0.25, start)
+        for one, (all_of_them, _) in zip(alone[1:], ways[1:], strict=True):
+            assert one == pytest.approx(all_of_them[0], abs=1e-8)
+
+
+def test_a_holder_that_stays_where_it_is_drags_nothing() -> None:
+    (track,) = tips([np.array([[3.0, 4.0], [3.0, 4.0]])], 0.25)
+    assert track == pytest.approx(np.array([[2.75, 4.0]]))

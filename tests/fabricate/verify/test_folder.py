@@ -95,5 +95,21 @@ def test_a_folder_that_is_not_there_is_refused(tmp_path: Path) -> None:
 def test_the_report_of_a_bad_job_says_not_to_cut_it() -> None:
     job = a_crease_is_cut_once_more(square_job.job(PENS))
     text = report(verify(job.plan, job.pattern, job.programs))
-    assert "gone over once more than its 2 repeats say" in text
-    assert "NOT to be cut. 1 error." in text
+    assert text.splitlines()[2] == "Verdict: NOT to be cut. 1 error."
+    assert "ERROR  A stroke is repeated too often or too rarely (repeats): 1" in text
+    assert "gone over once more than its 2 repeats say" in " ".join(text.split())
+    assert "To do: Plan again" in text
+
+
+def test_the_report_tells_kind_by_kind_with_errors_first_and_counts_the_rest() -> None:
+    good = square_job.job(PENS)
+    few = good.plan.model_copy(update={"ties": good.plan.ties[:2]})
+    empty = dict.fromkeys(good.programs, b"IN;DF;PA;PU;SP1;PU;SP0;")
+    text = report(verify(few, good.pattern, {**empty, "stray.hpgl": b"IN;"}))
+    heads = [line for line in text.splitlines() if line.startswith(("ERROR", "WARNING"))]
+    assert len(heads) > 3
+    assert heads == sorted(heads, key=lambda line: line.startswith("WARNING"))
+    assert any(head.startswith("ERROR  A stroke of the plan is not drawn") for head in heads)
+    numbers = [int(line.split(".")[0]) for line in text.splitlines() if line[:4].strip().isdigit()]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert max(len(line) for line in text.splitlines()) <= 96
