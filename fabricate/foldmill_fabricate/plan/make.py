@@ -77,7 +77,7 @@ def make(
     by_face = sides.scored_edges(pattern, material.score, unassigned)
     marks = _register(pattern, spots, sheet, turn, material, by_face)
     found = _vertices(pattern, spots, by_face, material, relief)
-    lines, ties = _lines(pattern, spots, by_face, found, material, machine)
+    lines, ties, tied = _lines(pattern, spots, by_face, found, material, machine)
     passes = setups.passes(lines, by_face, marks, material, machine, sheet, turn)
     passes = lead_ins.added(passes, _rim(pattern, spots), marks, sheet, material, machine)
     draft = Plan(
@@ -96,7 +96,7 @@ def make(
         figures=measure(passes, machine, sheet, turn),
     )
     judged = rules.judge(pattern, spots, by_face, found.stops, found.relieved, draft)
-    return draft.model_copy(update={"findings": (*_folds(fold), *marks.findings, *judged)})
+    return draft.model_copy(update={"findings": (*_folds(fold), *marks.findings, *tied, *judged)})
 
 
 @dataclass(frozen=True)
@@ -129,10 +129,10 @@ def _lines(
     found: _Vertices,
     material: Material,
     machine: Machine,
-) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...]]:
+) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...], tuple[Finding, ...]]:
     """Return what gives the strokes of a face from where the tool is, and the outline's ties."""
     outline.refuse_snapped_slots(pattern, material.cut)
-    cuts, ties = outline.outer_cut(pattern, spots, material.cut)
+    cuts, ties, tied = outline.outer_cut(pattern, spots, material.cut)
     score = material.score
     rules.refuse_short_creases(pattern, by_face, found.stops)
     rows = isinstance(score, Perforation)
@@ -148,7 +148,7 @@ def _lines(
             cuts,
         )
 
-    return lines, ties
+    return lines, ties, tied
 
 
 def _folds(fold: Fold) -> tuple[Finding, ...]:
