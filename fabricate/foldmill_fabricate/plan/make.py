@@ -27,6 +27,7 @@ from foldmill_fabricate.plan import (
     rules,
     scores,
     setups,
+    short,
     sides,
 )
 from foldmill_fabricate.plan import relief as relief_holes
@@ -131,10 +132,10 @@ def _lines(
     machine: Machine,
 ) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...], tuple[Finding, ...]]:
     """Return what gives the strokes of a face from where the tool is, and the outline's ties."""
+    short.refuse_swallowed(pattern, spots, by_face, found.stops, material, machine)
     outline.refuse_snapped_slots(pattern, material.cut)
     cuts, ties, tied = outline.outer_cut(pattern, spots, material.cut)
     score = material.score
-    rules.refuse_short_creases(pattern, by_face, found.stops)
     rows = isinstance(score, Perforation)
     ends = dict.fromkeys(found.stops, scores.TOUCH) if rows else found.stops
     holes = found.reliefs(spots)

@@ -118,23 +118,29 @@ def dashed(pieces: tuple[Stroke, ...], score: Perforation) -> tuple[Stroke, ...]
     """Return the cuts of perforated lines, in the order and direction of the lines.
 
     The lines run from vertex to vertex: the lands at their ends are the rows' own. Raises
-    CannotPlan for a line that is too short for any cut.
+    CannotPlan where lines are too short for any cut.
     """
     dashes = Dashes(score.cut, score.gap, score.setback)
-    found = []
+    found, short = [], []
     for piece in pieces:
         for start, end in pairwise(np.array(piece.points)):
             cuts = perforated(start, end, dashes)
             if not len(cuts):
-                raise _too_short(start, end, dashes)
+                short.append((float(np.hypot(*(end - start))), *((start + end) / 2).tolist()))
             found += [Stroke(points=((a[0], a[1]), (b[0], b[1]))) for a, b in cuts.tolist()]
+    if short:
+        raise _too_short(short, dashes)
     return tuple(found)
 
 
-def _too_short(start: Floats, end: Floats, dashes: Dashes) -> CannotPlan:
-    x, y = (start + end) / 2
+def _too_short(lines: list[tuple[float, float, float]], dashes: Dashes) -> CannotPlan:
+    """Say how many lines are too short; lines : length and middle of each, mm."""
+    length, x, y = min(lines)
+    least = shortest(dashes)
+    more = f" {len(lines)} lines in all are too short." if len(lines) > 1 else ""
     return CannotPlan(
-        f"The crease at ({x:.1f}, {y:.1f}) mm is {float(np.hypot(*(end - start))):.2f} mm long; a "
-        f"perforation takes {shortest(dashes):.2f} mm: its lands and half a cut. Enlarge the "
-        f"design or merge its vertices."
+        f"The crease at ({x:.1f}, {y:.1f}) mm is {length:.2f} mm long; a perforation takes "
+        f"{least:.2f} mm: its lands and half a cut.{more} Enlarge the design "
+        f"{np.ceil(100 * least / length) / 100:.2f} times, score it otherwise, or merge its "
+        f"vertices."
     )
