@@ -25,7 +25,7 @@ def measure(passes: tuple[Pass, ...], machine: Machine, sheet: Sheet, flip: Flip
             paths = _paths(one_pass.face, setup, machine, sheet, flip)
             strokes += sum(len(operation.strokes) for operation in setup.operations)
             lifts += len(paths)
-            drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+            drawn += sum(float(np.hypot(*(path[1:] - path[:-1]).T).sum()) for path in paths)
             travel += order.travel(paths, at)
             bound += _bound(one_pass.face, setup, at, sheet, flip)
             seconds += _seconds(paths, at, setup, machine)
@@ -62,12 +62,13 @@ def _seconds(paths: list[Floats], at: Floats, setup: SetUp, machine: Machine) ->
     model = machine.motion
     speed = motion.told_speed(setup.speed, machine)
     total = model.tool_time if setup.tool else 0.0
-    for path in paths:
-        hop = float(np.hypot(*(path[0] - at)))
-        total += float(motion.move_seconds([hop], model.travel_speed, model.acceleration)[0])
-        total += 2 * model.lift_time + motion.path_seconds(path, speed, model)
-        at = path[-1]
-    return total
+    if not paths:
+        return total
+    begins, leaves = np.array([path[0] for path in paths]), [at, *(path[-1] for path in paths[:-1])]
+    hops = np.hypot(*(begins - np.array(leaves)).T)
+    total += float(motion.move_seconds(hops, model.travel_speed, model.acceleration).sum())
+    total += 2 * model.lift_time * len(paths)
+    return total + sum(motion.path_seconds(path, speed, model) for path in paths)
 
 
 def _put_away(passes: tuple[Pass, ...], machine: Machine) -> float:

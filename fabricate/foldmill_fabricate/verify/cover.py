@@ -52,9 +52,12 @@ class Pieces:
 
 def pieces(polylines: Sequence[Floats]) -> Pieces:
     """Cut polylines (n, 2) mm into their straight pieces; those without length are left out."""
-    ends = [np.stack([points[:-1], points[1:]], axis=1) for points in polylines]
-    line = np.repeat(np.arange(len(ends)), [len(part) for part in ends]).astype(np.intp)
-    flat = np.vstack([np.zeros((0, 2, 2)), *ends])
+    sizes = np.array([len(points) for points in polylines], np.intp)
+    spots = np.concatenate([np.zeros((0, 2)), *polylines])
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    within = owner[1:] == owner[:-1]
+    line = owner[:-1][within].astype(np.intp)
+    flat = np.stack([spots[:-1][within], spots[1:][within]], axis=1)
     lengths = np.hypot(*(flat[:, 1] - flat[:, 0]).T)
     reached = np.concatenate([[0.0], np.cumsum(lengths)])[:-1]
     first = np.searchsorted(line, line)
