@@ -17,6 +17,8 @@ from foldmill_fabricate.pictures import canvas, pattern, sheet
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+DPI = 300
+"""Dots per inch of what is too much to be drawn line by line."""
 SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
 HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
 CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
@@ -35,7 +37,7 @@ def _to_pdf(pages: list[Paper]) -> bytes:
     silent = {"CreationDate": None, "Producer": None, "Creator": "foldmill"}
     with PdfPages(out, metadata=silent) as pdf:
         for page in pages:
-            pdf.savefig(page.figure)
+            pdf.savefig(page.figure, dpi=DPI)
     return out.getvalue()
 
 

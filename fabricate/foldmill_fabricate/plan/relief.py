@@ -93,9 +93,14 @@ def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) ->
     rims = [shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2) for hole in relief]
     open_edges = (pattern.assignments == 0) | (pattern.assignments == 5)
     edges = shapely.MultiLineString(list(spots[pattern.edges[open_edges]]))
-    for k, (hole, rim) in enumerate(zip(relief, rims, strict=True)):
-        others = [shapely.distance(rim, other) for other in rims[:k]]
-        gap = min([float(shapely.distance(rim, edges)), *map(float, others)])
+    gaps = shapely.distance(rims, edges)
+    earlier, later = np.triu_indices(0)
+    if len(rims) > 1:
+        reach = max(hole.diameter for hole in relief) / 2
+        earlier, later = shapely.STRtree(rims).query(rims, predicate="dwithin", distance=reach)
+        earlier, later = earlier[earlier < later], later[earlier < later]
+    np.minimum.at(gaps, later, shapely.distance(np.array(rims)[earlier], np.array(rims)[later]))
+    for hole, gap in zip(relief, gaps.tolist(), strict=True):
         if gap < hole.diameter / 2:
             yield Finding(
                 "relief-too-near",
