@@ -8,9 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from shapely import STRtree
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -35,6 +40,20 @@ class Pieces:
         """(n,) mm."""
         lengths: Floats = np.hypot(*(self.ends[:, 1] - self.ends[:, 0]).T)
         return lengths
+
+    @cached_property
+    def outlines(self) -> NDArray[np.object_]:
+        """(n,) the pieces as geometries, made once."""
+        import shapely
+
+        return np.asarray(shapely.linestrings(self.ends))
+
+    @cached_property
+    def tree(self) -> STRtree:
+        """An R-tree of them, made once."""
+        import shapely
+
+        return shapely.STRtree(self.outlines)
 
     def take(self, which: NDArray[np.bool_]) -> Pieces:
         """Return the chosen pieces; lines keep their numbers."""
@@ -136,10 +155,7 @@ class Pairs:
 
 def pairs(these: Pieces, those: Pieces, tolerance: float) -> Pairs:
     """Find the pairs of pieces that come within the tolerance (mm) of each other."""
-    import shapely
-
-    one, two = shapely.linestrings(these.ends), shapely.linestrings(those.ends)
-    i, j = shapely.STRtree(two).query(one, predicate="dwithin", distance=tolerance)
+    i, j = those.tree.query(these.outlines, predicate="dwithin", distance=tolerance)
     return Pairs(these, those, i.astype(np.intp), j.astype(np.intp), tolerance)
 
 

@@ -253,7 +253,6 @@ def _often(times: float) -> str:
 def _farthest(these: Pieces, those: Pieces) -> float:
     import shapely
 
-    tree = shapely.STRtree(shapely.linestrings(those.ends))
     points = shapely.points(these.ends.reshape(-1, 2))
-    _, gaps = tree.query_nearest(points, all_matches=False, return_distance=True)
+    _, gaps = those.tree.query_nearest(points, all_matches=False, return_distance=True)
     return float(np.max(gaps))
