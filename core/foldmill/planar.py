@@ -113,6 +113,18 @@ def signed_area(loop: Floats) -> float:
     return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
 
 
+def signed_areas(points: Floats, loops: list[list[int]]) -> Floats:
+    """Return the area (n,) of each closed loop of vertices, positive counter-clockwise."""
+    sizes = np.array([len(loop) for loop in loops], np.intp)
+    areas = np.zeros(len(loops))
+    for size in np.unique(sizes).tolist():
+        same = np.flatnonzero(sizes == size)
+        x, y = points[np.array([loops[k] for k in same.tolist()], np.intp)].transpose(2, 0, 1)
+        ahead, above = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
+        areas[same] = 0.5 * ((x * above).sum(axis=1) - (y * ahead).sum(axis=1))
+    return areas
+
+
 def triangulate(points: Floats, loops: list[list[int]]) -> tuple[Indices, Indices, Indices]:
     """Cut simple polygons into triangles without new vertices.
 
@@ -123,7 +135,11 @@ def triangulate(points: Floats, loops: list[list[int]]) -> tuple[Indices, Indice
     owners: list[int] = []
     extra: list[tuple[int, int]] = []
     for number, loop in enumerate(loops):
-        triangles = [tuple(loop)] if len(loop) == 3 else _cut_polygon(points, loop)
+        if len(loop) == 3:
+            faces.append(tuple(loop))
+            owners.append(number)
+            continue
+        triangles = _cut_polygon(points, loop)
         faces += triangles
         owners += [number] * len(triangles)
         rim = {frozenset(side) for side in zip(loop, loop[1:] + loop[:1], strict=True)}

@@ -13,6 +13,7 @@ Frame = dict[str, Any]
 
 _PER_ROW = 12
 """How many plain numbers or letters of an array share a row."""
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _EXACT = 2.0**53
 """Beyond this a float says nothing about units, so it is left as it is."""
 
@@ -48,9 +49,16 @@ def _value(key: str, value: Any, indent: str) -> str:
 def _elements(value: Any, indent: str) -> str:
     if not isinstance(value, list) or not value:
         return _compact(value)
+    if all(map(_is_numbers, value)):
+        return _block([f"{indent} [{row}]" for row in _compact(value)[2:-2].split("], [")], indent)
     per_row = 1 if any(isinstance(item, list | dict) for item in value) else _PER_ROW
     rows = [value[k : k + per_row] for k in range(0, len(value), per_row)]
-    return _block([f"{indent} {', '.join(map(_compact, row))}" for row in rows], indent)
+    return _block([f"{indent} {_compact(row)[1:-1]}" for row in rows], indent)
+
+
+def _is_numbers(item: Any) -> bool:
+    """Tell whether an item is a list of numbers: many of those are written at once."""
+    return type(item) is list and bool(item) and {*map(type, item)} <= {int, float}
 
 
 def _block(rows: Sequence[str], indent: str) -> str:
@@ -58,7 +66,7 @@ def _block(rows: Sequence[str], indent: str) -> str:
 
 
 def _compact(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    return _ENCODER.encode(value)
 
 
 def parse(text: str) -> Frame:

@@ -11,7 +11,7 @@ from foldmill import planar
 from foldmill.errors import UnreadableFile
 from foldmill.exchange import cuts
 from foldmill.exchange.elements import array, brief, coordinates, faces_of, graph_of
-from foldmill.exchange.graph import Graph, is_order, numbered, side_faces
+from foldmill.exchange.graph import Graph, is_order, numbered
 from foldmill.exchange.json_text import Frame
 from foldmill.exchange.keys import ADDED, CUT, DERIVED, JOIN, MILLIMETRES, OF, POLYGON, WRITTEN
 from foldmill.pattern import Assignment, CreasePattern, Floats, codes_of
@@ -109,11 +109,10 @@ def _oriented(
     A face runs counter-clockwise seen from its front. So a sheet of clockwise faces is one seen
     from its back: it is turned over. Where only some do, the file just does not orient its faces.
     """
-    areas = [planar.signed_area(points[face]) for face in faces]
-    for number, area in enumerate(areas):
-        if area == 0:
-            raise UnreadableFile(f"The face {number} has no area.")
-    clockwise = {number for number, area in enumerate(areas) if area < 0}
+    areas = planar.signed_areas(points, faces)
+    for number in np.flatnonzero(areas == 0).tolist():
+        raise UnreadableFile(f"The face {number} has no area.")
+    clockwise = set(np.flatnonzero(areas < 0).tolist())
     if clockwise and len(clockwise) == len(faces):
         notes.append(
             "All faces run clockwise: the sheet is seen from its back, and is turned over."
@@ -148,11 +147,11 @@ def _found_faces(points: Floats, graph: Graph) -> list[list[int]]:
 
 def _check_sides(graph: Graph) -> None:
     """Refuse faces whose sides are no edges, and faces that lie on the same side of an edge."""
-    known = {frozenset(edge) for edge in graph.edges}
+    known = {*graph.edges, *((b, a) for a, b in graph.edges)}
     owners: dict[tuple[int, int], int] = {}
     for number, face in enumerate(graph.faces):
         for a, b in zip(face, face[1:] + face[:1], strict=True):
-            if frozenset((a, b)) not in known:
+            if (a, b) not in known:
                 raise UnreadableFile(f"The face {number} has the side {a}-{b}, which is no edge.")
             if (a, b) in owners:
                 raise UnreadableFile(
@@ -160,9 +159,8 @@ def _check_sides(graph: Graph) -> None:
                     f"{a}-{b}: a sheet has one face on either side."
                 )
             owners[a, b] = number
-    left = side_faces(graph.faces)
     for number, (a, b) in enumerate(graph.edges):
-        sides = ((a, b) in left) + ((b, a) in left)
+        sides = ((a, b) in owners) + ((b, a) in owners)
         wanted = {"B": 1, "C": sides}.get(graph.letters[number], 2)
         if sides != wanted:
             kind = "boundary" if wanted == 1 else "crease"

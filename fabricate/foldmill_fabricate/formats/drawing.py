@@ -68,8 +68,9 @@ class Group:
     """The lines of one layer, each once however often the knife repeats it."""
 
     layer: Layer
-    setup: SetUp
-    """The first set-up that works on this layer; its tool, speed and force go with it."""
+    setup: SetUp | None
+    """The first set-up that works on this layer; its tool, speed and force go with it. None where
+    nothing is worked."""
     lines: tuple[Floats, ...]
     """Each (n, 2) mm; a closed line ends where it begins."""
 

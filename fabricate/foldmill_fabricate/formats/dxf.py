@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
 Version = Literal["R2000", "R12"]
+Copies = dict[str, list[tuple[str, list[list[float]]]]]
+"""By the handle of a straight line: handles and ends of those that follow it and look like it."""
 UNITS = {"R2000": 4, "R12": 0}
 """The value of $INSUNITS: mm, or none where the header has no such variable."""
 
@@ -37,11 +39,12 @@ def _dxf(view: d.Drawing, version: Version) -> bytes:
         space.reset_extents((0, 0, 0), (view.width, view.height, 0))
         space.reset_limits((0, 0), (view.width, view.height))
         _add_layers(document, view)
+        copies: Copies = {}
         for group in view.groups:
-            _add_lines(space, group.layer, group.lines)
-        _add_lines(space, d.ANCHOR, tuple(d.anchors(view.width, view.height)))
+            copies |= _add_lines(space, group.layer, group.lines)
+        copies |= _add_lines(space, d.ANCHOR, tuple(d.anchors(view.width, view.height)))
         _add_note(space, view)
-        return _to_bytes(document)
+        return _to_bytes(document, copies)
 
 
 @contextmanager
@@ -66,18 +69,32 @@ def _add_layers(document: Drawing, view: d.Drawing) -> None:
             silent.dxf.plot = 0
 
 
-def _add_lines(space: Modelspace, layer: d.Layer, lines: tuple[d.Floats, ...]) -> None:
-    """Add each line once; with a colour of its own, for readers that know no layers."""
+def _add_lines(space: Modelspace, layer: d.Layer, lines: tuple[d.Floats, ...]) -> Copies:
+    """Add each line once; with a colour of its own, for readers that know no layers.
+
+    Of straight lines in a row only the first is added; returns the others.
+    """
     look = {"layer": layer.name, "color": layer.aci}
+    found: Copies = {}
+    row: list[tuple[str, list[list[float]]]] | None = None
     for line in lines:
         points = line.tolist()
-        if len(points) == 2:
-            space.add_line(points[0], points[1], dxfattribs=look)
-            continue
-        closed = d.is_closed(line)
-        corners = points[:-1] if closed else points
-        polyline = space.add_polyline2d if space.dxfversion == "AC1009" else space.add_lwpolyline
-        polyline(corners, close=closed, dxfattribs=look)
+        if len(points) == 2 and row is not None and space.doc is not None:
+            row.append((space.doc.entitydb.next_handle(), points))
+        elif len(points) == 2:
+            first = space.add_line(points[0], points[1], dxfattribs=look)
+            row = found[str(first.dxf.handle)] = []
+        else:
+            row = None
+            _add_polyline(space, line, look)
+    return found
+
+
+def _add_polyline(space: Modelspace, line: d.Floats, look: dict[str, object]) -> None:
+    closed = d.is_closed(line)
+    corners = line[:-1].tolist() if closed else line.tolist()
+    polyline = space.add_polyline2d if space.dxfversion == "AC1009" else space.add_lwpolyline
+    polyline(corners, close=closed, dxfattribs=look)
 
 
 def _add_note(space: Modelspace, view: d.Drawing) -> None:
@@ -85,7 +102,26 @@ def _add_note(space: Modelspace, view: d.Drawing) -> None:
     space.add_text(view.note, height=d.NOTE_HEIGHT, dxfattribs=look).set_placement(d.NOTE_AT)
 
 
-def _to_bytes(document: Drawing) -> bytes:
+def _to_bytes(document: Drawing, copies: Copies) -> bytes:
+    """Return the file, with the copies of each line behind it: there may be very many."""
     out = StringIO()
     document.write(out)
-    return document.encode(out.getvalue())
+    text = out.getvalue()
+    parts, done = [], 0
+    for handle, others in copies.items():
+        begin = text.index(f"  0\nLINE\n  5\n{handle}\n", done)
+        end = text.index("\n  0\n", begin) + 1
+        parts += [text[done:end], *_like(text[begin:end], others)]
+        done = end
+    return document.encode("".join([*parts, text[done:]]))
+
+
+def _like(entity: str, others: list[tuple[str, list[list[float]]]]) -> Iterator[str]:
+    """Yield the text of lines like one, each with its own handle and ends."""
+    tags = entity.split("\n")
+    codes = ["  5", " 10", " 20", " 11", " 21"]
+    places = [tags.index(code, 0) + 1 for code in codes]
+    for handle, ((x, y), (u, v)) in others:
+        for place, value in zip(places, (handle, x, y, u, v), strict=True):
+            tags[place] = str(value)
+        yield "\n".join(tags)

@@ -50,13 +50,21 @@ def canvas(width: float, height: float) -> svgwrite.Drawing:
     return svgwrite.Drawing(size=size, viewBox=box, debug=False)
 
 
-def to_bytes(drawing: svgwrite.Drawing) -> bytes:
-    """Return the file: indented, UTF-8, newline at its end."""
+def to_bytes(drawing: svgwrite.Drawing, paths: Mapping[str, list[str]] | None = None) -> bytes:
+    """Return the file: indented, UTF-8, newline at its end.
+
+    paths : data of many paths, each in a line like that of the path whose data is their key.
+    """
     from io import StringIO
 
     out = StringIO()
     drawing.write(out, pretty=True, indent=1)
-    return out.getvalue().encode("utf-8")
+    text = out.getvalue()
+    for key, data in (paths or {}).items():
+        begin = text.rindex("\n", 0, text.index(key))
+        row = text[begin : text.index("\n", begin + 1)]
+        text = text.replace(row, "".join(row.replace(key, each) for each in data))
+    return text.encode("utf-8")
 
 
 def _svg(plan: Plan, view: d.Drawing) -> bytes:
@@ -65,35 +73,27 @@ def _svg(plan: Plan, view: d.Drawing) -> bytes:
     svg = canvas(view.width, view.height)
     layers = Inkscape(svg)
     svg.set_desc(title=view.note)
-    for group in view.groups:
+    marks = d.Group(d.ANCHOR, None, tuple(d.anchors(view.width, view.height)))
+    paths = {}
+    for number, group in enumerate((*view.groups, marks)):
         layer = layers.layer(label=_label(plan, group))
-        _add_lines(svg, layer, group.layer, group.lines, view.height)
+        key = f"{d.ANCHOR.name}-{number}-"  # stands in for all paths of its layer: they are many
+        layer.add(svg.path(d=key, style=STROKE.format(group.layer.colour)))
+        paths[key] = [path(line, view.height) for line in group.lines]
         svg.add(layer)
-    anchor = layers.layer(label=d.ANCHOR.name)
-    _add_lines(svg, anchor, d.ANCHOR, tuple(d.anchors(view.width, view.height)), view.height)
-    svg.add(anchor)
     note = layers.layer(label=d.NOTE.name)
     note.add(_text(svg, view))
     svg.add(note)
-    return to_bytes(svg)
+    return to_bytes(svg, paths)
 
 
 def _label(plan: Plan, group: d.Group) -> str:
+    if group.setup is None:
+        return group.layer.name
     selects = plan.machine.tools.change == "select"
     pen = group.setup.tool if selects else group.layer.pen
     speed, force = hpgl.speed(group.setup), hpgl.force(group.setup)
     return f"{group.layer.name} Pen {pen} Speed {speed} Force {force}"
-
-
-def _add_lines(
-    svg: svgwrite.Drawing,
-    to: svgwrite.container.Group,
-    layer: d.Layer,
-    lines: tuple[d.Floats, ...],
-    height: float,
-) -> None:
-    for line in lines:
-        to.add(svg.path(d=path(line, height), style=STROKE.format(layer.colour)))
 
 
 def _text(svg: svgwrite.Drawing, view: d.Drawing) -> svgwrite.text.Text:

@@ -18,6 +18,8 @@ from foldmill_fabricate.pictures import canvas, pattern, sheet
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+DPI = 300
+"""Dots per inch of what is too much to be drawn line by line."""
 SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
 HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
 BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
@@ -45,7 +47,7 @@ def _to_pdf(pages: list[Paper]) -> bytes:
     silent = {"CreationDate": None, "Producer": None, "Creator": "foldmill"}
     with PdfPages(out, metadata=silent) as pdf:
         for page in pages:
-            pdf.savefig(page.figure)
+            pdf.savefig(page.figure, dpi=DPI)
     return out.getvalue()
 
 

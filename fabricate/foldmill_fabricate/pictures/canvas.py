@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 MM_PER_INCH = 25.4
 ALARM = "#c00000"
 DPI = 120
+MANY = 4000
+"""Lines of one look that a page can still show one by one."""
+THINNEST = 0.2
+"""Share of their usual width that lines keep, however many they are."""
 
 
 @contextmanager
@@ -71,9 +75,16 @@ def svg(drawn: Figure) -> bytes:
 
 
 def add_lines(axes: Axes, lines: ArrayLike | list[ArrayLike], **look: object) -> None:
-    """Draw many lines, each (n, 2), in one look and with round ends."""
+    """Draw many lines, each (n, 2), in one look and with round ends.
+
+    Very many become dots inside a PDF or SVG, thinner: each by itself would fill megabytes, and
+    they would run into each other.
+    """
     from matplotlib.collections import LineCollection
 
+    if (count := len(lines)) > MANY:  # type: ignore[arg-type]
+        width = float(look.get("linewidth", 1.0)) * max((MANY / count) ** 0.5, THINNEST)  # type: ignore[arg-type]
+        look |= {"rasterized": True, "linewidth": width}
     axes.add_collection(LineCollection(lines, capstyle="round", **look))  # type: ignore[arg-type]
 
 

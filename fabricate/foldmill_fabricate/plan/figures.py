@@ -32,7 +32,7 @@ def measure(
             paths = _paths(one_pass.face, setup, machine, sheet, flip)
             strokes += sum(len(operation.strokes) for operation in setup.operations)
             lifts += len(paths)
-            drawn += sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+            drawn += sum(float(np.hypot(*(path[1:] - path[:-1]).T).sum()) for path in paths)
             travel += order.travel(paths, at)
             bound += _bound(one_pass.face, setup, at, sheet, flip) if bounded else 0.0
             times = _times(paths, at, setup, machine)

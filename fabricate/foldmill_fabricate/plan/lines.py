@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import CreasePattern
+from foldmill.finding import Finding
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, Perforation
 from foldmill_fabricate.passes import Face, Hole, Stroke, Tie
-from foldmill_fabricate.plan import outline, relief, rules, scores
+from foldmill_fabricate.plan import outline, relief, scores
 from foldmill_fabricate.plan.setups import Lines
 
 Floats = NDArray[np.float64]
@@ -34,16 +35,16 @@ def drawn(
     reliefs: Sequence[tuple[Hole, ...]],
     material: Material,
     machine: Machine,
-) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...]]:
-    """Return what gives the strokes of a face from where the tool is, and the outlines' ties.
+) -> tuple[Callable[[Face, Floats], Lines], tuple[Tie, ...], tuple[Finding, ...]]:
+    """Return what gives the strokes of a face from where the tool is, ties, and what is told.
 
     spots : of each copy the vertices on the sheet (V, 2), mm; reliefs : of each copy its holes;
     stops : vertices that scores stop short of, and by how many mm.
     """
     outline.refuse_snapped_slots(pattern, material.cut)
     rims = [outline.outer_cut(pattern, own, material.cut) for own in spots]
+    tied = tuple(finding for _, _, found in rims for finding in found)
     score, cut = material.score, material.cut
-    rules.refuse_short_creases(pattern, by_face, stops)
     rows = isinstance(score, Perforation)
     ends = dict.fromkeys(stops, scores.TOUCH) if rows else stops
     offset = machine.tools.host_offset
@@ -68,7 +69,7 @@ def drawn(
             _each(middles, start, cut.repeats, lambda k, _: rims[k][0]),
         )
 
-    return lines, tuple(tie for _, ties in rims for tie in ties)
+    return lines, tuple(tie for _, ties, _ in rims for tie in ties), tied
 
 
 def _each(middles: Floats, start: Floats, repeats: int, draw: Draw) -> Strokes:

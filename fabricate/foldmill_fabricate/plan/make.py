@@ -29,6 +29,7 @@ from foldmill_fabricate.plan import (
     rules,
     scores,
     setups,
+    short,
     sides,
     two_sides,
 )
@@ -87,7 +88,10 @@ def make(
     marks = _register(register, rims, sheet, turn, material, machine, by_face)
     found = _vertices(pattern, spots, by_face, material, relief)
     reliefs = [found.reliefs(own) for own in every]
-    drawn, ties = lines.drawn(pattern, every, by_face, found.stops, reliefs, material, machine)
+    short.refuse_swallowed(pattern, spots, by_face, found.stops, material, machine)
+    drawn, ties, tied = lines.drawn(
+        pattern, every, by_face, found.stops, reliefs, material, machine
+    )
     passes = setups.passes(drawn, by_face, marks, material, machine, sheet, turn)
     passes = lead_ins.added(passes, rims, marks, sheet, material, machine)
     draft = Plan(
@@ -118,6 +122,7 @@ def make(
                 *marks.findings,
                 *two_sides.findings(draft),
                 *budget.findings(draft),
+                *tied,
                 *judged,
             )
         }

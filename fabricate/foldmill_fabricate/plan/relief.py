@@ -8,7 +8,7 @@ Scores run out into the rim of such a hole, as they do at the outline.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,12 +95,14 @@ def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) ->
     rims = [shapely.Point(hole.x, hole.y).buffer(hole.diameter / 2) for hole in relief]
     open_edges = (pattern.assignments == 0) | (pattern.assignments == 5)
     ends = spots[pattern.edges[open_edges]]
-    for k, (hole, rim) in enumerate(zip(relief, rims, strict=True)):
-        middle = np.array([hole.x, hole.y])
-        begins_here = (np.hypot(*(ends - middle).T) < TOUCH).any(axis=0)
-        edges = shapely.MultiLineString(list(ends[~begins_here]))
-        others = [shapely.distance(rim, other) for other in rims[:k]]
-        gap = min([float(shapely.distance(rim, edges)), *map(float, others)])
+    gaps = np.array([_from_cuts(hole, rim, ends) for hole, rim in zip(relief, rims, strict=True)])
+    earlier, later = np.triu_indices(0)
+    if len(rims) > 1:
+        reach = max(hole.diameter for hole in relief) / 2
+        earlier, later = shapely.STRtree(rims).query(rims, predicate="dwithin", distance=reach)
+        earlier, later = earlier[earlier < later], later[earlier < later]
+    np.minimum.at(gaps, later, shapely.distance(np.array(rims)[earlier], np.array(rims)[later]))
+    for hole, gap in zip(relief, gaps.tolist(), strict=True):
         if gap < hole.diameter / 2:
             yield Finding(
                 "relief-too-near",
@@ -111,3 +113,17 @@ def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) ->
                 "Enlarge the design, or plan with --relief needed or none.",
                 (hole.x, hole.y),
             )
+
+
+def _from_cuts(hole: Hole, rim: Any, ends: Floats) -> float:
+    """Return how far a hole's rim is from the cuts (n, 2, 2) that do not begin in it, mm."""
+    import shapely
+
+    middle = np.array([hole.x, hole.y])
+    away = np.hypot(*(ends - middle).transpose(2, 0, 1))
+    others = ends[~(away < TOUCH).any(axis=1)]
+    if not len(others):
+        return np.inf
+    reach = np.hypot(*(others - middle).transpose(2, 0, 1)).min(axis=1)
+    near = reach <= reach.min() + np.hypot(*(others[:, 1] - others[:, 0]).T)
+    return float(shapely.distance(rim, shapely.MultiLineString(list(others[near]))))

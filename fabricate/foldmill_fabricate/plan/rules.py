@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from foldmill import CreasePattern
 from foldmill.finding import Finding, Severity
-from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.materials import (
     CreaseWheel,
     HalfCut,
@@ -20,29 +19,13 @@ from foldmill_fabricate.materials import (
     VScore,
 )
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.plan import relief, shapes, spacing
+from foldmill_fabricate.plan import relief, shapes, short, spacing
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-SHORT_CREASE = 2.0
-"""mm of score that must remain between two setbacks: less does not guide a fold."""
 BLADE_STEP = 0.1
 """mm. Blades are set in such steps: half of one is the least that is sure to go through."""
-
-
-def refuse_short_creases(
-    pattern: CreasePattern, by_face: Mapping[Face, Indices], stops: Mapping[int, float]
-) -> None:
-    """Raise CannotPlan for a crease that its setbacks would swallow; stops : mm by vertex."""
-    for edge in np.concatenate(list(by_face.values())).tolist():
-        taken = [stops.get(int(v), 0.0) for v in pattern.edges[edge]]
-        if pattern.edge_lengths[edge] <= sum(taken):
-            raise CannotPlan(
-                f"Crease {edge} is {pattern.edge_lengths[edge]:.2f} mm long, and scores stop "
-                f"{taken[0]:g} and {taken[1]:g} mm short of the vertices at its ends: nothing is "
-                f"left to score. Enlarge the design or merge its vertices."
-            )
 
 
 def judge(
@@ -63,7 +46,7 @@ def judge(
         *_language(plan),
         *_force(plan),
         *_depth(plan),
-        *_short_creases(pattern, spots, by_face, stops, plan),
+        *short.findings(pattern, spots, by_face, stops, plan.material),
         *spacing.findings(pattern, spots, by_face, stops, plan.material, relieved),
         *relief.findings(plan.reliefs, pattern, spots),
         *shapes.findings(pattern, spots, plan),
@@ -198,27 +181,3 @@ def _depth_range(slug: str, score: HalfCut | VScore | CreaseWheel | Stylus) -> I
             f"{high:.0%} are usual. {'The fold may tear' if deep else 'The fold may wander'}.",
             f"Set depth_ratio to {(low + high) / 2:.2f}.",
         )
-
-
-def _short_creases(
-    pattern: CreasePattern,
-    spots: Floats,
-    by_face: dict[Face, Indices],
-    stops: Mapping[int, float],
-    plan: Plan,
-) -> Iterator[Finding]:
-    least = plan.material.min_feature
-    for face, edges in by_face.items():
-        for edge in edges.tolist():
-            length = float(pattern.edge_lengths[edge])
-            taken = sum(stops.get(int(v), 0.0) for v in pattern.edges[edge])
-            x, y = spots[pattern.edges[edge]].mean(axis=0)
-            if length < max(taken + SHORT_CREASE, least):
-                yield Finding(
-                    "short-crease",
-                    Severity.WARNING,
-                    f"crease {edge} on the {face} at ({x:.1f}, {y:.1f}) mm",
-                    f"It is {length:.2f} mm long, of which {length - taken:.2f} mm are scored.",
-                    "Fold it by hand along a ruler, or enlarge the design.",
-                    (float(x), float(y)),
-                )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -34,15 +34,20 @@ def held_back(pattern: CreasePattern, by_face: dict[Face, Indices]) -> set[int]:
     by_face : edges scored on each face. There at least two scored creases meet that are not one
     groove: they bend, or lie on different faces, whose grooves must not touch.
     """
-    spokes: dict[int, list[tuple[Face, float]]] = {}
-    for face, edges in by_face.items():
-        for a, b in pattern.edges[edges].tolist():
-            for tail, head in ((a, b), (b, a)):
-                step = pattern.vertices[head] - pattern.vertices[tail]
-                angle = float(np.degrees(np.arctan2(step[1], step[0])))
-                spokes.setdefault(tail, []).append((face, angle))
-    whole = set(surrounded(pattern).tolist())
-    return {v for v, own in spokes.items() if v in whole and not _is_one_groove(own)}
+    edges = np.concatenate(list(by_face.values()))
+    side = np.repeat(np.arange(len(by_face)), [len(own) for own in by_face.values()])
+    tails = np.concatenate(pattern.edges[edges].T)
+    heads = np.concatenate(pattern.edges[edges].T[::-1])
+    angles = np.degrees(np.arctan2(*(pattern.vertices[heads] - pattern.vertices[tails]).T[::-1]))
+    order = np.argsort(tails, kind="stable")
+    tails, angles, side = tails[order], angles[order], np.tile(side, 2)[order]
+    first = np.flatnonzero(np.append(True, tails[1:] != tails[:-1])) if len(tails) else order
+    count = np.diff(np.append(first, len(tails)))
+    two = first[count == 2]
+    bend = np.abs((angles[two] - angles[two + 1]) % 360 - 180)
+    grooves = tails[two[(side[two] == side[two + 1]) & (bend <= STRAIGHT_DEG)]]
+    meeting = np.setdiff1d(tails[first[count > 1]], grooves)
+    return set(np.intersect1d(meeting, surrounded(pattern)).tolist())
 
 
 def surrounded(pattern: CreasePattern) -> Indices:
@@ -51,14 +56,6 @@ def surrounded(pattern: CreasePattern) -> Indices:
     border = pattern.edges[pattern.assignments == Assignment.B]
     ends, count = np.unique(cuts, return_counts=True)
     return np.union1d(pattern.interior_vertices, np.setdiff1d(ends[count == 1], border))
-
-
-def _is_one_groove(spokes: list[tuple[Face, float]]) -> bool:
-    if len(spokes) == 1:
-        return True
-    (one, p), (two, q) = spokes[:2]
-    bend = abs((p - q) % 360 - 180)
-    return len(spokes) == 2 and one is two and bend <= STRAIGHT_DEG
 
 
 def strokes(
@@ -82,24 +79,39 @@ def strokes(
     corners = by_time(machine.motion) if machine.tools.trails else free_turning()
     found = route(spots, pattern.edges[edges], start, corners)
     held = {vertex: by for vertex, by in stops.items() if by > 0}
-    pieces = [piece for trail in found.trails for piece in _divide(trail, spots, held)]
+    pieces = _divided(found.trails, spots, held)
     if len(pieces) == len(found.trails) and repeats % 2:
         return tuple(pieces)
     return order.sorted_strokes(pieces, repeats, start)
 
 
-def _divide(trail: tuple[int, ...], spots: Floats, stops: Mapping[int, float]) -> list[Stroke]:
-    """Cut a trail into strokes where they must stop short of a vertex."""
-    cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops]
+def _divided(
+    trails: Sequence[tuple[int, ...]], spots: Floats, stops: Mapping[int, float]
+) -> list[Stroke]:
+    """Cut trails into strokes where they must stop short of a vertex."""
+    ways = [way for trail in trails for way in _ways(trail, stops)]
+    held = np.zeros(len(spots))
+    held[list(stops)] = list(stops.values())
+    ends = [
+        _shortened(spots, np.array([way[::step][:2] for way in ways], np.intp).reshape(-1, 2), held)
+        for step in (1, -1)
+    ]
     pieces = []
-    for low, high in pairwise([0, *cuts, len(trail) - 1]):
-        way = spots[list(trail[low : high + 1])]
-        bent = [k for k in range(1, len(way) - 1) if _bends(way, k)]
-        one = _shortened(way[0], way[1], stops[trail[low]]) if trail[low] in stops else way[0]
-        two = _shortened(way[-1], way[-2], stops[trail[high]]) if trail[high] in stops else way[-1]
-        points = (one, *way[bent], two)
-        pieces.append(Stroke(points=tuple((float(x), float(y)) for x, y in points)))
+    for way, one, two in zip(ways, ends[0].tolist(), ends[1].tolist(), strict=True):
+        bent = _bent(spots[list(way)]) if len(way) > 2 else []
+        pieces.append(Stroke(points=tuple((x, y) for x, y in (one, *bent, two))))
     return pieces
+
+
+def _ways(trail: tuple[int, ...], stops: Mapping[int, float]) -> list[tuple[int, ...]]:
+    cuts = [k for k in range(1, len(trail) - 1) if trail[k] in stops]
+    return [trail[low : high + 1] for low, high in pairwise([0, *cuts, len(trail) - 1])]
+
+
+def _bent(way: Floats) -> list[list[float]]:
+    """Return the points of a way (n, 2) between its ends at which it bends."""
+    bent: list[list[float]] = way[[k for k in range(1, len(way) - 1) if _bends(way, k)]].tolist()
+    return bent
 
 
 def _bends(way: Floats, k: int) -> bool:
@@ -108,9 +120,13 @@ def _bends(way: Floats, k: int) -> bool:
     return bool(abs(bend) > STRAIGHT_DEG)
 
 
-def _shortened(end: Floats, towards: Floats, setback: float) -> Floats:
-    step = towards - end
-    moved: Floats = end + step * (setback / float(np.hypot(*step)))
+def _shortened(spots: Floats, pairs: Indices, held: Floats) -> Floats:
+    """Return the first of each pair of vertices (n, 2), moved to the second as far as is held."""
+    ends = spots[pairs[:, 0]]
+    step, by = spots[pairs[:, 1]] - ends, held[pairs[:, 0]]
+    short = by > 0
+    moved: Floats = ends.copy()
+    moved[short] += step[short] * (by[short] / np.hypot(*step[short].T))[:, None]
     return moved
 
 
@@ -118,23 +134,29 @@ def dashed(pieces: tuple[Stroke, ...], score: Perforation) -> tuple[Stroke, ...]
     """Return the cuts of perforated lines, in the order and direction of the lines.
 
     The lines run from vertex to vertex: the lands at their ends are the rows' own. Raises
-    CannotPlan for a line that is too short for any cut.
+    CannotPlan where lines are too short for any cut.
     """
     dashes = Dashes(score.cut, score.gap, score.setback)
-    found = []
+    found, short = [], []
     for piece in pieces:
         for start, end in pairwise(np.array(piece.points)):
             cuts = perforated(start, end, dashes)
             if not len(cuts):
-                raise _too_short(start, end, dashes)
+                short.append((float(np.hypot(*(end - start))), *((start + end) / 2).tolist()))
             found += [Stroke(points=((a[0], a[1]), (b[0], b[1]))) for a, b in cuts.tolist()]
+    if short:
+        raise _too_short(short, dashes)
     return tuple(found)
 
 
-def _too_short(start: Floats, end: Floats, dashes: Dashes) -> CannotPlan:
-    x, y = (start + end) / 2
+def _too_short(lines: list[tuple[float, float, float]], dashes: Dashes) -> CannotPlan:
+    """Say how many lines are too short; lines : length and middle of each, mm."""
+    length, x, y = min(lines)
+    least = shortest(dashes)
+    more = f" {len(lines)} lines in all are too short." if len(lines) > 1 else ""
     return CannotPlan(
-        f"The crease at ({x:.1f}, {y:.1f}) mm is {float(np.hypot(*(end - start))):.2f} mm long; a "
-        f"perforation takes {shortest(dashes):.2f} mm: its lands and half a cut. Enlarge the "
-        f"design or merge its vertices."
+        f"The crease at ({x:.1f}, {y:.1f}) mm is {length:.2f} mm long; a perforation takes "
+        f"{least:.2f} mm: its lands and half a cut.{more} Enlarge the design "
+        f"{np.ceil(100 * least / length) / 100:.2f} times, score it otherwise, or merge its "
+        f"vertices."
     )

@@ -51,20 +51,28 @@ def _flaps(
 
 def flaps(pattern: CreasePattern, spots: Floats) -> Iterator[tuple[Indices, Indices]]:
     """Yield the facets that hang on one straight fold: their vertices, and two on the fold."""
-    facet = facets(pattern)
-    sides = _sides(pattern)
-    for number in range(int(facet.max(initial=-1)) + 1):
-        own = [sides[f, k] for f in np.flatnonzero(facet == number).tolist() for k in range(3)]
-        hinges = [edge for edge in own if pattern.assignments[edge] in (Assignment.M, Assignment.V)]
-        if not hinges:
-            continue
-        ends = np.unique(pattern.edges[hinges])
-        far = spots[ends] - spots[ends[0]]
-        last = ends[int(np.argmax(np.hypot(*far.T)))]
-        line = spots[last] - spots[ends[0]]
-        beside = np.abs(far[:, 0] * line[1] - far[:, 1] * line[0]) / np.hypot(*line)
-        if beside.max() <= IN_LINE:
-            yield np.unique(pattern.edges[own]), np.array([ends[0], last])
+    facet, sides = facets(pattern), _sides(pattern)
+    hinged = np.isin(pattern.assignments[sides], (Assignment.M, Assignment.V))
+    owner = np.repeat(np.repeat(facet, 3)[hinged.ravel()], 2)
+    ends = pattern.edges[sides[hinged]].ravel()
+    if not len(ends):
+        return
+    order = np.lexsort((ends, owner))
+    owner, ends = owner[order], ends[order]
+    first = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
+    size = np.diff(np.append(first, len(owner)))
+    base = np.repeat(ends[first], size)
+    far = spots[ends] - spots[base]
+    farthest = np.lexsort((ends, -np.hypot(*far.T), owner))[first]
+    line = np.repeat(far[farthest], size, axis=0)
+    beside = np.abs(far[:, 0] * line[:, 1] - far[:, 1] * line[:, 0]) / np.hypot(*line.T)
+    straight = np.flatnonzero(np.maximum.reduceat(beside, first) <= IN_LINE)
+    by_facet = np.argsort(facet, kind="stable")
+    starts = np.searchsorted(facet[by_facet], np.arange(facet.max() + 2))
+    for k in straight.tolist():
+        number = owner[first[k]]
+        own = sides[by_facet[starts[number] : starts[number + 1]]]
+        yield np.unique(pattern.edges[own]), np.array([ends[first[k]], ends[farthest[k]]])
 
 
 def facets(pattern: CreasePattern) -> Indices:
@@ -87,14 +95,13 @@ def facets(pattern: CreasePattern) -> Indices:
 
 def _sides(pattern: CreasePattern) -> Indices:
     """Return the edges (F, 3) of each triangle."""
-    numbers = {frozenset(edge): k for k, edge in enumerate(pattern.edges.tolist())}
-    return np.array(
-        [
-            [numbers[frozenset((face[k], face[k - 1]))] for k in range(3)]
-            for face in pattern.faces.tolist()
-        ],
-        np.intp,
-    ).reshape(-1, 3)
+    count = len(pattern.vertices)
+    known = pattern.edges.min(axis=1) * count + pattern.edges.max(axis=1)
+    order = np.argsort(known, kind="stable")
+    tails, heads = pattern.faces, np.roll(pattern.faces, 1, axis=1)
+    wanted = np.minimum(tails, heads) * count + np.maximum(tails, heads)
+    sides: Indices = order[np.searchsorted(known[order], wanted)].reshape(-1, 3)
+    return sides
 
 
 def _tight_holes(plan: Plan) -> Iterator[Finding]:

@@ -91,18 +91,30 @@ def _judged(
     if not len(grooves.edges):
         return
     lines = shapely.linestrings(grooves.lines)
-    rim = set(np.setdiff1d(pattern.edges, surrounded(pattern)).tolist())
     reach = max(2 * material.thickness, material.score.min_spacing)
     first, second = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
-    for i, j in zip(first[first < second], second[first < second], strict=True):
-        gap = float(shapely.distance(lines[i], lines[j]))
-        shared = set(pattern.edges[grooves.edges[i]]) & set(pattern.edges[grooves.edges[j]])
-        across = grooves.faces[i] is not grooves.faces[j]
-        if shared & rim:
-            continue
-        judged = _judge(across, bool(shared), gap, material, bool(shared & set(relieved)))
+    i, j = first[first < second], second[first < second]
+    gaps = shapely.distance(lines[i], lines[j])
+    one, two = pattern.edges[grooves.edges[i]], pattern.edges[grooves.edges[j]]
+    shared = (one[:, :, None] == two[:, None, :]).any(axis=2)
+    on_face = np.array([face is Face.FRONT for face in grooves.faces])
+    across = on_face[i] != on_face[j]
+    touching, holed = shared.any(axis=1), (shared & _of(relieved, pattern)[one]).any(axis=1)
+    whole = ~(shared & ~_of(surrounded(pattern), pattern)[one]).any(axis=1)
+    for k in np.flatnonzero(whole).tolist():
+        judged = _judge(
+            bool(across[k]), bool(touching[k]), float(gaps[k]), material, bool(holed[k])
+        )
         if judged is not None:
-            yield _Pair(judged, int(i), int(j), gap, {int(v) for v in shared})
+            vertices = set(one[k][shared[k]].tolist())
+            yield _Pair(judged, int(i[k]), int(j[k]), float(gaps[k]), vertices)
+
+
+def _of(vertices: Collection[int] | Indices, pattern: CreasePattern) -> NDArray[np.bool_]:
+    """Return which vertices (V,) are among some."""
+    found = np.zeros(len(pattern.vertices), bool)
+    found[list(vertices)] = True
+    return found
 
 
 def _grooves(

@@ -76,6 +76,17 @@ class Sums:
             return True
         return self.parts[done].stroke == self.parts[number].stroke
 
+    def reach(self, done: int) -> int:
+        """Return a number up to which instructions may follow at most; little above the truth.
+
+        A large buffer holds thousands that may not, and looking at each takes longer than cutting.
+        """
+        short = bisect_right(self.seconds, self.seconds[done] + IN_FLIGHT) + 1
+        stroke, last = self.parts[done].stroke, max(done, short)
+        while last < len(self.parts) and self.parts[last].stroke == stroke:
+            last += 1
+        return last + 1
+
 
 class Asked:
     """ESC.B: ask for the free bytes, early enough that the answer is there before it is needed.
@@ -144,6 +155,7 @@ class Asked:
         last = bisect_right(sums.bytes, room) - 1
         if last >= len(sums.parts):
             return self._cover  # all the rest fits
+        last = max(min(last, sums.reach(self._done)), number + 1)
         while last > number + 1 and not sums.may_follow(self._done, last - 1):
             last -= 1
         return max(0, sums.bytes[last] - sums.bytes[number + 1])

@@ -8,9 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from shapely import STRtree
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -36,6 +41,20 @@ class Pieces:
         lengths: Floats = np.hypot(*(self.ends[:, 1] - self.ends[:, 0]).T)
         return lengths
 
+    @cached_property
+    def outlines(self) -> NDArray[np.object_]:
+        """(n,) the pieces as geometries, made once."""
+        import shapely
+
+        return np.asarray(shapely.linestrings(self.ends))
+
+    @cached_property
+    def tree(self) -> STRtree:
+        """An R-tree of them, made once."""
+        import shapely
+
+        return shapely.STRtree(self.outlines)
+
     def take(self, which: NDArray[np.bool_]) -> Pieces:
         """Return the chosen pieces; lines keep their numbers."""
         return Pieces(self.ends[which], self.line[which], self.start[which])
@@ -52,9 +71,12 @@ class Pieces:
 
 def pieces(polylines: Sequence[Floats]) -> Pieces:
     """Cut polylines (n, 2) mm into their straight pieces; those without length are left out."""
-    ends = [np.stack([points[:-1], points[1:]], axis=1) for points in polylines]
-    line = np.repeat(np.arange(len(ends)), [len(part) for part in ends]).astype(np.intp)
-    flat = np.vstack([np.zeros((0, 2, 2)), *ends])
+    sizes = np.array([len(points) for points in polylines], np.intp)
+    spots = np.concatenate([np.zeros((0, 2)), *polylines])
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    within = owner[1:] == owner[:-1]
+    line = owner[:-1][within].astype(np.intp)
+    flat = np.stack([spots[:-1][within], spots[1:][within]], axis=1)
     lengths = np.hypot(*(flat[:, 1] - flat[:, 0]).T)
     reached = np.concatenate([[0.0], np.cumsum(lengths)])[:-1]
     first = np.searchsorted(line, line)
@@ -133,10 +155,7 @@ class Pairs:
 
 def pairs(these: Pieces, those: Pieces, tolerance: float) -> Pairs:
     """Find the pairs of pieces that come within the tolerance (mm) of each other."""
-    import shapely
-
-    one, two = shapely.linestrings(these.ends), shapely.linestrings(those.ends)
-    i, j = shapely.STRtree(two).query(one, predicate="dwithin", distance=tolerance)
+    i, j = those.tree.query(these.outlines, predicate="dwithin", distance=tolerance)
     return Pairs(these, those, i.astype(np.intp), j.astype(np.intp), tolerance)
 
 

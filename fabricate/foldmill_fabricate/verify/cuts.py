@@ -22,6 +22,7 @@ from foldmill_fabricate.verify.cover import (
     stretches,
     uncovered,
 )
+from foldmill_fabricate.verify.eased import Eased
 from foldmill_fabricate.verify.planned import Planned, at
 
 Floats = NDArray[np.float64]
@@ -147,9 +148,10 @@ def _tie_findings(asked: Asked) -> list[Finding]:
     owners = [_owner(asked, tie) for tie in ties]
     for copy in range(asked.laid.count):
         found += _enough(asked, cut, copy, owners.count(copy))
-    corners = _corners(asked)
+    corners, eased = _corners(asked), [Eased(asked, cut, loop) for loop in asked.loops]
     for k, tie in enumerate(ties, 1):
-        found += _one_tie(asked, cut, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
+        own = eased[max(owners[k - 1], 0)]
+        found += _one_tie(own, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
     return found
 
 
@@ -176,7 +178,8 @@ def _enough(asked: Asked, cut: ThroughCut, copy: int, count: int) -> list[Findin
     return []
 
 
-def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Floats) -> list[Finding]:
+def _one_tie(eased: Eased, tie: Tie, where: str, corners: Floats) -> list[Finding]:
+    asked, cut = eased.asked, eased.cut
     bridge = _bridges(asked, asked.rim, [tie])
     standing = float(bridge.lengths.sum())
     if standing < tie.width - tolerances.UNEVEN_MM:
@@ -188,9 +191,17 @@ def _one_tie(asked: Asked, cut: ThroughCut, tie: Tie, where: str, corners: Float
         found.append(_error("tie-width", where, text))
     gaps = np.hypot(*(corners - (tie.x, tie.y)).T) - tie.width / 2
     if len(gaps) and gaps.min() < cut.tie_corner - tolerances.UNEVEN_MM:
-        text = f"It is {gaps.min():.2f} mm from a corner; {cut.tie_corner:g} mm are asked for."
-        found.append(_error("tie-corner", where, text))
+        text = f"It is {gaps.min():.2f} mm from a corner; {cut.tie_corner:g} mm are asked for"
+        why = eased.objection(tie)
+        found.append(
+            _error("tie-corner", where, f"{text}, and {why}.") if why else _near(where, text)
+        )
     return found
+
+
+def _near(where: str, text: str) -> Finding:
+    text = f"{text}, and the outline has no better place near it."
+    return Finding("tie-near-corner", Severity.WARNING, where, text)
 
 
 def _corners(asked: Asked) -> Floats:

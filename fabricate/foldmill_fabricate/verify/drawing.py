@@ -280,10 +280,9 @@ def _any_gaps(points: Floats, those: Pieces) -> Floats:
     """Return the distances (n,) of points (n, 2) from the nearest of all pieces."""
     import shapely
 
-    tree = shapely.STRtree(shapely.linestrings(those.ends))
-    found, gaps = tree.query_nearest(
+    nearest = np.zeros(len(points))
+    found, gaps = those.tree.query_nearest(
         shapely.points(points), all_matches=False, return_distance=True
     )
-    nearest = np.zeros(len(points))
     nearest[found[0]] = gaps
     return nearest

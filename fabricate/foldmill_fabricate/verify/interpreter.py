@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 
 _INSTRUCTION = re.compile(r"\s*([A-Za-z]{2})([^A-Za-z;]*)(;?)|\s*;")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)")
+_PLAIN = re.compile(r"-?\d+(?:,-?\d+)*")
+"""What nearly every instruction has; read at once."""
 _SIGN = re.compile(r"(?<=[\d.])(?=[+-])")
 
 
@@ -121,6 +123,8 @@ class _Pen:
         self.begun = True
 
     def numbers(self, mnemonic: str, parameters: str, byte: int) -> list[float]:
+        if _PLAIN.fullmatch(parameters):
+            return [float(word) for word in parameters.split(",")]
         text = _SIGN.sub(",", parameters.strip())
         words = re.split(r"\s*,\s*|\s+", text) if text else []
         wrong = [word for word in words if not _NUMBER.fullmatch(word)]

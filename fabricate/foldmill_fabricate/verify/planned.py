@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,10 +37,10 @@ class Planned:
         """What it is for."""
         return self.operation.role
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Once along it, mm."""
-        return float(np.hypot(*np.diff(self.points, axis=0).T).sum())
+        return float(np.hypot(*(self.points[1:] - self.points[:-1]).T).sum())
 
     @property
     def overcut(self) -> float:

@@ -165,7 +165,8 @@ def _stray_finding(replay: Replay, line: Line, stroke: Planned) -> Finding:
 
 def _dips(replay: Replay) -> list[Finding]:
     """Name places where the tool only goes down and up: it pierces the sheet."""
-    dips = [line for line in replay.drawing.lines if not np.ptp(line.run.points, axis=0).any()]
+    lines = replay.drawing.lines
+    dips = [line for line in lines if (line.run.points == line.run.points[0]).all()]
     return [
         _error(
             "dip",

@@ -49,8 +49,7 @@ def steered(trace: Trace, plan: Plan, file: ProgramFile, fit: Fit | None) -> Ste
     offset = modelled_offset(plan.machine)
     drag = _Drag(plan, file, fit, offset)
     if not offset:
-        for run in trace.runs:
-            drag.draw(on_carrier(run.points, plan.machine.axes), run)
+        drag.draw_all(trace.runs)
         return Steered(tuple(drag.lines), ())
     setups = [s for side in plan.passes for s in side.setups if s.number in file.setups]
     groups = [list(runs) for _, runs in groupby(trace.runs, key=lambda run: run.choice)]
@@ -89,6 +88,17 @@ class _Drag:
         if led and apart > tolerances.SETTLED_MM:
             text = f"The tip's way still depends on how it pointed at first, by {apart:.3f} mm."
             self._complain("blade-unsettled", farthest, text)
+
+    def draw_all(self, runs: Sequence[Run]) -> None:
+        """Take the ways of a tip without offset as drawn: all at once, for there are many."""
+        told = np.concatenate([np.zeros((0, 2)), *(run.points for run in runs)])
+        tips = on_carrier(told, self.plan.machine.axes)
+        points = on_sheet(tips, self.plan, self.file.face, self.fit)
+        first = 0
+        for run in runs:
+            last = first + len(run.points)
+            self.lines.append(Line(points[first:last], self.file.face, self.file.name, run))
+            first = last
 
     def draw(self, tip: Floats, run: Run) -> None:
         """Take a tip's way (n, 2) on the carrier as drawn."""

@@ -47,6 +47,9 @@ NEARLY_STRAIGHT_DEG: Final = 1.0
 CORNER_DEG: Final = 5.0
 """deg. The outline has a corner where it turns by more."""
 
+NEAR_PITCHES: Final = 0.25
+"""Pitches of ties. Where a tie as asked for could be so near, none lies nearer to a corner."""
+
 ROUND_MM: Final = 0.05
 """mm. How far the facets of a hole may leave its circle: a pin does not feel it."""
 

@@ -47,9 +47,9 @@ def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:
     """Turn machine steps (n, 2) into carrier coordinates, mm: its calibration undone."""
     mm = np.asarray(steps, float) / axes.units_per_mm
     seen = mm[:, ::-1] if axes.swap else mm
-    leant = np.array([[1.0, np.tan(np.radians(axes.skew))], [0.0, 1.0]])
-    undone: Floats = seen @ np.linalg.inv(np.diag([axes.scale_x, axes.scale_y]) @ leant).T
-    return undone
+    upright = seen / (axes.scale_x, axes.scale_y)
+    upright[:, 0] -= np.tan(np.radians(axes.skew)) * upright[:, 1]
+    return upright
 
 
 def on_sheet(carrier: ArrayLike, plan: Plan, face: Face, fit: Fit | None) -> Floats:

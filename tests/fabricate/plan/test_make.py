@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from stools import ONE_TOOL, PENS, machine, material, stool, stool_plan, through_cut
@@ -10,7 +12,7 @@ from foldmill import Assignment, CreasePattern, Fold
 from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.passes import Face, Gate, Plan, Role
 from foldmill_fabricate.plan import make
-from foldmill_fabricate.plan.rules import refuse_short_creases
+from foldmill_fabricate.plan.short import refuse_swallowed
 from foldmill_fabricate.sheet import flipped, placed
 
 
@@ -249,11 +251,28 @@ def test_a_weak_machine_is_told_that_it_may_not_cut_through() -> None:
     assert "through-cut-marginal" not in {finding.code for finding in stool_plan(PENS).findings}
 
 
-def test_a_crease_that_its_setbacks_swallow_is_refused() -> None:
-    with pytest.raises(CannotPlan, match="nothing is left to score"):
-        refuse_short_creases(
-            square("MVMV", 1.0).pattern, {Face.FRONT: np.arange(8, 12)}, {8: 0.75, 1: 0.75}
-        )
+def test_creases_that_their_setbacks_swallow_are_refused_with_their_number_and_the_worst() -> None:
+    small = square("MVMV", 1.0)
+    spots = small.pattern.vertices
+    stops = {8: 0.75, 1: 0.75}
+    faces = {Face.FRONT: np.arange(8, 12)}
+    with pytest.raises(CannotPlan, match="4 of 4 creases") as refused:
+        refuse_swallowed(small.pattern, spots, faces, stops, material(), machine())
+    said = str(refused.value)
+    assert "nothing is left to score" in said
+    assert "at least 4 mm long rather than 1.0 mm" in said  # (0.75 + 0.75) / 0.5 = 3, and a bit
+
+
+def test_a_part_of_the_size_that_the_refusal_names_is_planned_and_a_smaller_one_is_not() -> None:
+    with pytest.raises(CannotPlan) as refused:
+        make(square("MVMV", 1.0), material(), machine())
+    size = int(re.search(r"at least (\d+) mm", str(refused.value))[1])  # type: ignore[index]
+    setback = material().score.setback
+    assert size == np.ceil(2 * (setback + 0.01))
+    plan = make(square("MVMV", size), material(), machine(), cut="score-and-snap")
+    assert [f.code for f in plan.findings].count("short-crease") == 1
+    with pytest.raises(CannotPlan, match="nothing is left"):
+        make(square("MVMV", 2 * setback), material(), machine(), cut="score-and-snap")
 
 
 def test_grooves_of_both_faces_that_end_too_near_at_a_vertex_are_an_error() -> None:
