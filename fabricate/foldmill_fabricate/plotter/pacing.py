@@ -184,9 +184,13 @@ class Asked:
         self._check_progress()
 
     def _soon(self, asked: float) -> float:
-        """Return by when an answer is there that nothing has met."""
+        """Return by when an answer is there that nothing has met: what is queued goes first."""
         session = self._session
-        return asked + session.buffer * session.byte_time + 4 * session.round_trip
+        queued = session.unsent()
+        queued = (
+            session.buffer if queued is None else queued + session.machine.dialect.max_instruction
+        )
+        return asked + min(queued, session.buffer) * session.byte_time + 4 * session.round_trip
 
     def _collided(self) -> None:
         """Ask again: the question met the answer to OA, and was dropped for it."""

@@ -23,6 +23,10 @@ BITS = 10
 """Per byte on the line: a start bit, eight of data, a stop bit."""
 LEAST_RESERVE = 128
 """Bytes of the buffer that are never filled, or a quarter of it."""
+QUESTION = 3
+"""Bytes of what is asked between strokes."""
+ASKED_EVERY = 0.5
+"""s of motion between two such questions, at least."""
 OPENING = 110
 """Bytes that go to and fro before and after a program: what the machine is asked, and answers."""
 
@@ -59,6 +63,16 @@ def _fed(line: list[float], seconds: list[float], room: float) -> float:
     return ended
 
 
+def _asked(seconds: list[float]) -> Floats:
+    """Return the bytes (n,) of what is asked before each path, by the time that went by."""
+    asked, since = np.zeros(len(seconds)), 0.0
+    for k, lasts in enumerate(seconds):
+        if k and (since >= ASKED_EVERY or since + lasts > 3 * ASKED_EVERY):
+            asked[k], since = QUESTION, 0.0
+        since += lasts
+    return asked
+
+
 def _instructions(
     paths: Sequence[Floats], times: Floats, machine: Machine
 ) -> tuple[Floats, Floats]:
@@ -70,7 +84,8 @@ def _instructions(
     gone = np.hypot(*np.diff(steps, axis=0, prepend=steps[:1]).T)
     gone[first] = 0.0
     size = digits.sum(axis=1) + 2
-    size[first] += 2  # PU and a semicolon; a PD's own are counted with each part
+    size[first] += 2 + (_asked(times.sum(axis=1).tolist()) if machine.serial.answers else 0.0)
+    # PU and a semicolon; a PD's own are counted with each part
     size[~first & (gone == 0)] = 0.0  # a step that is no step is not told
     down = np.where(first, 0.0, size)
     reached = np.cumsum(down) - np.cumsum(down)[first][np.cumsum(first) - 1]

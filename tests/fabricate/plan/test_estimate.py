@@ -66,7 +66,7 @@ def test_a_slow_line_is_counted_where_the_machine_waits_for_it(used: Machine) ->
     plan = make(knife_job.fold(), material(), slow)
     clock, moving = simulated(plan, knife_job.fold(), slow)
     assert moving < 0.8 * clock
-    assert plan.figures.seconds == pytest.approx(clock, rel=0.02)
+    assert plan.figures.seconds == pytest.approx(clock, rel=0.03)
 
 
 def test_the_estimate_of_a_drag_knife_counts_its_swivels() -> None:

@@ -56,7 +56,7 @@ class Drawn:
     """Steps, machine axes; a single point where the tool went down and up in one place."""
     setting: str = ""
     """What else it was made with, in words, such as a laser's power."""
-    face: Face = Face.FRONT
+    face: Face = field(default=Face.FRONT, compare=False)
     """Which face was up."""
     imperfection: Imperfection = PERFECT
     """Of the machine that made it."""
