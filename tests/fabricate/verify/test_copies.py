@@ -157,7 +157,9 @@ def test_four_good_copies_pass_without_a_finding(flip: str, slug: str) -> None:
 
 
 @pytest.mark.parametrize("flip", ["left-right", "end-over-end"])
-@pytest.mark.parametrize(("spoil", "codes"), SPOILT.items(), ids=sentence)
+@pytest.mark.parametrize(
+    ("spoil", "codes"), SPOILT.items(), ids=[sentence(spoil) for spoil in SPOILT]
+)
 def test_it_is_found_that(spoil: Callable[[Plan], Plan], codes: set[str], flip: str) -> None:
     assert errors(verified(replanned(job(flip), spoil))) >= codes
 
