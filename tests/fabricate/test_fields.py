@@ -14,11 +14,13 @@ from pydantic import BaseModel
 
 from foldmill.finding import has_errors
 from foldmill_fabricate import folder, jobsheet, shelf
+from foldmill_fabricate.coupon.make import make as coupon
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.formats import hpgl, svg
 from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.presets import Preset
 from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.sheet import seen_by_machine
@@ -98,6 +100,10 @@ def work(into: Path, material: str, machine: str, score: str | None, cut: str | 
         assert not has_errors(verify(plan, fold.pattern, hpgl.write(plan, fold)).findings)
     assert jobsheet.words.setup_rows(plan)
     if whole:
+        assert coupon(shelf.material(material), used)
+        seven = Simulator(shelf.machine("hp-7550a"))
+        seven.write(b"IN;IN;\x1b.A")
+        seven.rest()
         folder.write(fold, plan, into, ["hpgl"])
         holes = [(hole.x, hole.y) for hole in plan.holes]
         marks = seen_by_machine(plan, Face.REVERSE, holes).tolist()
