@@ -31,10 +31,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Assignment, installed
+from foldmill.planarise import planarise
 from foldmill_fabricate.machines import Machine, Motion
 from foldmill_fabricate.toolpath import corners, motion, order, sequence
 from foldmill_fabricate.toolpath.bounds import travel_bound
-from foldmill_fabricate.toolpath.planarise import planarise
 from foldmill_fabricate.toolpath.routing import route
 
 Floats = NDArray[np.float64]

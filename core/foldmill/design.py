@@ -103,7 +103,8 @@ class Fold:
     says of the result: name → number, text or truth value, which travels with the file and is told
     by ``check``), ``title``, foreign keys; ``read`` where it comes from a file."""
     findings: tuple[Finding, ...] = ()
-    """What only the family can know is wrong with it; ``check`` tells it with its own."""
+    """What only the family can know is wrong with it, or how its file was mended; ``check`` tells
+    it with its own."""
 
     def __post_init__(self) -> None:
         if self.folded is not None and len(self.folded.vertices) != len(self.pattern.vertices):

@@ -24,7 +24,7 @@ import numpy as np
 
 from foldmill.design import Fold, Symmetry
 from foldmill.errors import InvalidPattern, UnreadableFile
-from foldmill.exchange import cuts, frames, json_text
+from foldmill.exchange import cuts, frames, json_text, mending
 from foldmill.exchange.elements import array, coordinates
 from foldmill.exchange.graph import Graph, middle, of_polygons, of_triangles
 from foldmill.exchange.json_text import Frame, plain
@@ -36,24 +36,31 @@ from foldmill.pattern import Floats
 _CLASSES = ("creasePattern", "foldedForm")
 
 
-def read(text: str, name: str = "") -> Fold:
+def read(text: str, name: str = "", *, planarise: bool = False) -> Fold:
     """Return the fold in the text of a FOLD file; ``name`` is for the sentences of refusals.
 
-    Raises UnreadableFile, saying which element is wrong and how.
+    planarise : whether lines that cross or lie on each other are mended first, and
+    ``Fold.findings`` then tell how; what needs no mending is read as without. Raises
+    UnreadableFile, saying which element is wrong and how.
     """
     try:
-        return _read(json_text.parse(text))
+        return _read(json_text.parse(text), planarise)
     except (UnreadableFile, InvalidPattern) as error:
         place = f"{name}: " if name else ""
         raise UnreadableFile(f"{place}{error}") from None
 
 
-def _read(data: Frame) -> Fold:
+def _read(data: Frame, planarise: bool) -> Fold:
     every = frames.frames_of(data)
     first, second = frames.pick(every)
     notes: list[str] = []
     frame = frames.resolved(every, first)
     frame |= {key: value for key, value in data.items() if key.startswith("file_")}
+    mended = mending.mend(frame, notes) if planarise else mending.Mended(frame, ())
+    if mended.changes:
+        # What else the file holds is about lines that are no longer those.
+        frame, every, first, second = mended.frame, [mended.frame], 0, None
+        notes.append("Its lines were mended; its other frames and its faces are left out.")
     sheet = read_sheet(frame, notes)
     kept: dict[str, Any] = {"frame": sheet.foreign(frame), "corners": sheet.corners, "notes": notes}
     meta: dict[str, Any] = {"fold": kept, "read": True}
@@ -70,7 +77,8 @@ def _read(data: Frame) -> Fold:
         meta["design"] = kept["frame"].pop(DESIGN)
     if _is_said(frame.get(DESIGNED)):
         meta["designed"] = kept["frame"].pop(DESIGNED)
-    return Fold(sheet.pattern, folded, _symmetry(frame, sheet), meta=meta)
+    symmetry = _symmetry(frame, sheet)
+    return Fold(sheet.pattern, folded, symmetry, meta=meta, findings=mended.findings())
 
 
 def _is_said(stated: Any) -> bool:

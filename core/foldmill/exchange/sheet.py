@@ -67,7 +67,7 @@ def read_sheet(frame: Frame, notes: list[str]) -> Sheet:
     What had to be supposed is added to ``notes``.
     """
     points = np.array(coordinates(frame, 2), float) * scale(frame, notes)
-    faces, turned, mirrored = _oriented(points, faces_of(frame), notes)
+    faces, turned, mirrored = oriented(points, faces_of(frame), notes)
     points = points * [1.0, -1.0] if mirrored else points
     graph = graph_of(frame, faces, notes)
     if not faces:
@@ -101,7 +101,7 @@ def scale(frame: Frame, notes: list[str]) -> float:
     return MILLIMETRES[unit]
 
 
-def _oriented(
+def oriented(
     points: Floats, faces: list[list[int]], notes: list[str]
 ) -> tuple[list[list[int]], set[int], bool]:
     """Return faces that run counter-clockwise, which were turned, and whether to mirror the sheet.

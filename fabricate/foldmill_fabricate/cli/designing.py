@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from foldmill import Design, Fold, FoldmillError
+from foldmill import Design, Fold, FoldmillError, UnreadableFile
 from foldmill.exchange.marking import marked
 from foldmill.finding import has_errors
 from foldmill_fabricate.cli.output import (
@@ -23,6 +23,10 @@ from foldmill_fabricate.cli.output import (
 )
 
 FoldFile = Annotated[Path, typer.Argument(help="A crease pattern, FILE.fold.")]
+Planarise = Annotated[
+    bool,
+    typer.Option("--planarise", help="Mend lines that cross or lie upon each other, and say how."),
+]
 
 
 def add_to(app: typer.Typer) -> None:
@@ -122,6 +126,7 @@ def _save_columns(title: str, figures: Mapping[str, object], file: Path) -> None
 def show(
     file: FoldFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="FILE.png")],
+    planarise: Planarise = False,
 ) -> None:
     """Draw a pattern and its folded form side by side."""
     from foldmill_fabricate.files import write_whole
@@ -129,27 +134,42 @@ def show(
 
     if output.suffix != ".png":
         raise FoldmillError(f"{output}: a picture is written as .png.")
-    write_whole(output, show_picture(load(file)))
+    write_whole(output, show_picture(load(file, planarise)))
     typer.echo(f"{output}")
 
 
-def check(file: FoldFile, as_json: AsJson = False) -> None:
+def check(file: FoldFile, planarise: Planarise = False, as_json: AsJson = False) -> None:
     """Check that a pattern folds: developable, planar, isometric, free of penetration."""
     from foldmill.check import check as check_fold
 
-    report = check_fold(load(file))
+    report = check_fold(load(file, planarise))
     text = [figure_lines(report.figures), finding_lines(report.findings) or "no findings"]
     data = {"figures": dict(report.figures), "findings": finding_data(report.findings)}
     say(as_json, data, "\n".join(text))
     exit_code(report.findings)
 
 
-def load(file: Path) -> Fold:
-    """Read a .fold file; raises UnreadableFile."""
+def load(file: Path, planarise: bool = False) -> Fold:
+    """Read a .fold file; raises UnreadableFile, which names --planarise where that mends it."""
     from foldmill.exchange import fold as fold_file
 
     text = file.read_bytes().decode("utf-8", errors="replace")
-    return fold_file.read(text, str(file))
+    try:
+        return fold_file.read(text, str(file), planarise=planarise)
+    except UnreadableFile as error:
+        if planarise or not _is_mended(text):
+            raise
+        raise UnreadableFile(f"{error} Or let --planarise mend its lines.") from None
+
+
+def _is_mended(text: str) -> bool:
+    """Tell whether a file that cannot be read can be once its lines are mended."""
+    from foldmill.exchange import fold as fold_file
+
+    try:
+        return bool(fold_file.read(text, planarise=True).findings)
+    except UnreadableFile:
+        return False
 
 
 def save(fold: Fold, file: Path) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.designing import FoldFile, load
+from foldmill_fabricate.cli.designing import FoldFile, Planarise, load
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -130,6 +130,7 @@ def plan(
         str | None,
         typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
     ] = None,
+    planarise: Planarise = False,
     as_json: AsJson = False,
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
@@ -138,7 +139,7 @@ def plan(
 
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)
-    fold = load(file)
+    fold = load(file, planarise)
     made = make(
         fold,
         chosen_material,

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foldmill import InvalidInput, installed
-from foldmill_fabricate.toolpath.planarise import Planar, planarise, planarise_pattern
+from foldmill.planarise import Planar, planarise, planarise_pattern
 
 PRESETS = [(slug, name) for slug, design in installed().designs.items() for name in design.presets]
 

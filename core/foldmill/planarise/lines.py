@@ -7,16 +7,16 @@ comes back as it was.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foldmill import CreasePattern
 from foldmill.errors import InvalidInput
-from foldmill_fabricate.toolpath.joints import merged_runs
-from foldmill_fabricate.toolpath.splitting import split, weld
+from foldmill.pattern import CreasePattern
+from foldmill.planarise.joints import merged_runs
+from foldmill.planarise.splitting import split, weld
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -28,7 +28,7 @@ difference, and a file of four decimals is joined where it was meant to be."""
 _ROUNDS = 5
 """Splitting moves lines by up to TOUCH_MM, which may make others meet; that settles at once."""
 
-What = Literal["crossing", "overlap", "joint", "crumb"]
+What = Literal["weld", "crossing", "overlap", "joint", "crumb"]
 
 
 @dataclass(frozen=True)
@@ -36,12 +36,15 @@ class Change:
     """One thing that was mended, and where: mm."""
 
     what: What
-    """"crossing": lines were split where they meet; "overlap": a stretch that lay on a longer line
-    was dropped; "joint": two collinear lines became one; "crumb": a line shorter than TOUCH_MM."""
+    """"weld": a vertex became one with another at its place; "crossing": lines were split where
+    they meet; "overlap": a stretch that lay on another line was dropped; "joint": two collinear
+    lines became one; "crumb": a line shorter than TOUCH_MM."""
     x: float
     y: float
     line: int
     """Number of the line given, where one is meant; else -1."""
+    under: int = -1
+    """Of an overlap, the number of the line that stays."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +68,7 @@ class Planar:
     def report(self) -> str:
         """Return one sentence for a person."""
         names: tuple[tuple[What, str], ...] = (
+            ("weld", "vertices welded"),
             ("crossing", "crossings split"),
             ("overlap", "overlapping stretches dropped"),
             ("joint", "collinear joints closed"),
@@ -74,59 +78,83 @@ class Planar:
         return ", ".join(found).capitalize() + "." if found else "Nothing had to be changed."
 
 
-def planarise(segments: ArrayLike, roles: ArrayLike | None = None) -> Planar:
+def planarise(
+    segments: ArrayLike, roles: ArrayLike | None = None, ranks: ArrayLike | None = None
+) -> Planar:
     """Return the planar graph of straight lines.
 
-    segments : (n, 2, 2) mm; roles : (n,) whole numbers, by default all 0. Of lines that lie on each
-    other the longer stays, with its role; of equal ones the first. Lines of different roles are
-    split where they cross, and never joined. Raises InvalidInput for anything else.
+    segments : (n, 2, 2) mm; roles, ranks : (n,) whole numbers, by default all 0. Of lines that lie
+    on each other that of the highest rank stays, with its role; of those the longest, and of equal
+    ones the first. Lines of different roles are split where they cross, and never joined. Raises
+    InvalidInput for anything else.
     """
     given = np.asarray(segments, float)
     if given.ndim != 3 or given.shape[1:] != (2, 2) or not np.isfinite(given).all():
         raise InvalidInput(f"Lines are an (n, 2, 2) table of finite mm, not {given.shape}.")
-    kinds = np.zeros(len(given), np.intp) if roles is None else np.asarray(roles, np.intp)
+    none = np.zeros(len(given), np.intp)
+    kinds = none if roles is None else np.asarray(roles, np.intp)
+    order = none if ranks is None else np.asarray(ranks, np.intp)
     points, ends = weld(given.reshape(-1, 2), TOUCH_MM)
-    return _graph(points, ends.reshape(-1, 2), kinds, np.arange(len(given)))
+    return _graph(points, ends.reshape(-1, 2), kinds, order)
+
+
+def planarise_graph(
+    points: Floats, edges: Indices, roles: ArrayLike, ranks: ArrayLike | None = None
+) -> Planar:
+    """Return the planar graph of lines between vertices, which are welded where they coincide.
+
+    points : (V, 2) mm; edges : (E, 2); roles, ranks : (E,) as of ``planarise``.
+    """
+    kinds = np.asarray(roles, np.intp)
+    order = np.zeros(len(edges), np.intp) if ranks is None else np.asarray(ranks, np.intp)
+    own, same = weld(points, TOUCH_MM)
+    found = _graph(own, same[edges], kinds, order)
+    used = np.unique(edges)
+    _, first = np.unique(same[used], return_index=True)
+    spare = np.delete(used, first)
+    welds = tuple(Change("weld", *_xy(points[v]), -1) for v in spare)
+    return replace(found, changes=welds + found.changes)
 
 
 def planarise_pattern(pattern: CreasePattern) -> Planar:
     """Return the planar graph of a pattern's edges; roles are their assignments."""
-    kinds = pattern.assignments.astype(np.intp)
-    points, same = weld(pattern.vertices, TOUCH_MM)
-    return _graph(points, same[pattern.edges], kinds, np.arange(len(kinds)))
+    return planarise_graph(pattern.vertices, pattern.edges, pattern.assignments)
 
 
-def _graph(points: Floats, ends: Indices, kinds: Indices, lines: Indices) -> Planar:
+def _graph(points: Floats, ends: Indices, kinds: Indices, ranks: Indices) -> Planar:
     lengths = np.hypot(*(points[ends[:, 1]] - points[ends[:, 0]]).T)
     whole = ends[:, 0] != ends[:, 1]
     changes = [Change("crumb", *_xy(points[ends[k, 0]]), int(k)) for k in np.flatnonzero(~whole)]
-    edges, own, given = ends[whole], lines[whole], len(points)
+    edges, own, given = ends[whole], np.flatnonzero(whole), len(points)
     met: set[int] = set()
     for _ in range(_ROUNDS):
         points, edges, own, where = split(points, edges, own, TOUCH_MM)
         if not len(where):
             break
         met |= set(where.tolist())
-    edges, own, lost = _without_overlaps(edges, own, lengths)
-    changes += [Change("overlap", *_xy(points[e].mean(axis=0)), int(k)) for e, k in lost]
+    edges, own, lost = _without_overlaps(edges, own, lengths, ranks)
+    changes += [Change("overlap", *_xy(points[e].mean(axis=0)), k, on) for e, k, on in lost]
     edges, own, gone = merged_runs(points, edges, own, kinds, lengths, TOUCH_MM)
     crossings = sorted(met & set(np.unique(edges).tolist()))
     changes += [Change("crossing", *_xy(points[v]), -1) for v in crossings]
-    doubled = {int(v) for _, k in lost for v in ends[k]}
+    doubled = {int(v) for _, k, _ in lost for v in ends[k]}
     joints = [v for v in gone.tolist() if v < given and v not in doubled]
     changes += [Change("joint", *_xy(points[v]), -1) for v in joints]
     return Planar(points, edges, kinds[own], own, tuple(changes))
 
 
 def _without_overlaps(
-    edges: Indices, own: Indices, lengths: Floats
-) -> tuple[Indices, Indices, list[tuple[Indices, int]]]:
-    """Keep of equal edges that of the longest line; return what was dropped too."""
-    best = np.lexsort((own, -lengths[own]))
-    _, first = np.unique(np.sort(edges[best], axis=1), axis=0, return_index=True)
-    kept = np.zeros(len(edges), bool)
-    kept[best[first]] = True
-    lost = [(edges[k], int(own[k])) for k in np.flatnonzero(~kept)]
+    edges: Indices, own: Indices, lengths: Floats, ranks: Indices
+) -> tuple[Indices, Indices, list[tuple[Indices, int, int]]]:
+    """Keep of equal edges that of the best line; return each one dropped, its line and the best."""
+    best = np.lexsort((own, -lengths[own], -ranks[own]))
+    _, first, same = np.unique(
+        np.sort(edges[best], axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    stays = np.zeros(len(edges), np.intp)
+    stays[best] = best[first[same.reshape(-1)]]
+    kept = stays == np.arange(len(edges))
+    lost = [(edges[k], int(own[k]), int(own[stays[k]])) for k in np.flatnonzero(~kept)]
     return edges[kept], own[kept], lost
 
 
