@@ -11,8 +11,8 @@ Indices = NDArray[np.intp]
 COMPLETE = 300
 """Up to so many points every pair is a candidate."""
 NEIGHBOURS = 12
-"""Candidates of each point beyond that. On 276 and 1,000 random points they gave the same total
-as all pairs."""
+"""Candidates of each point beyond that. On some thousand random points the total is then up to 0.03 %
+above that of all pairs; ``proven`` finds the pairs that are missing."""
 _WHOLE = 1e6
 """Costs are matched in whole millionths, so that sums are exact."""
 
@@ -37,10 +37,21 @@ def cheapest(count: int, i: Indices, j: Indices, cost: Floats) -> Indices:
 
 
 def neighbours(points: Floats, count: int) -> tuple[Indices, Indices, Floats]:
-    """Return pairs i < j of points (n, 2) that are among each other's nearest, and gaps, mm."""
+    """Return pairs i < j of points (n, 2) that are among each other's nearest, and gaps, mm.
+
+    Up to COMPLETE points these are all pairs.
+    """
+    return nearest(points, len(points) if len(points) <= COMPLETE else count)
+
+
+def nearest(points: Floats, count: int) -> tuple[Indices, Indices, Floats]:
+    """Return pairs i < j of points (n, 2), one among the ``count`` nearest of the other; gaps, mm.
+
+    Of fewer points these are all pairs.
+    """
     from scipy.spatial import cKDTree
 
-    if len(points) <= COMPLETE:
+    if count >= len(points):
         i, j = np.triu_indices(len(points), 1)
     else:
         near = cKDTree(points).query(points, k=count + 1)[1]

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.toolpath import corners as corner
-from foldmill_fabricate.toolpath import hops, sequence, tours
+from foldmill_fabricate.toolpath import hops, proven, sequence, tours
 from foldmill_fabricate.toolpath.corners import Corners
 
 Floats = NDArray[np.float64]
@@ -33,6 +33,9 @@ class Route:
     """Vertices along each stroke; a closed one repeats its first."""
     bound: float
     """mm of travel that no order of as few strokes goes below."""
+    gap: float = 0.0
+    """mm by which the hops between strokes may be longer than the least there are, before strokes
+    are joined; 0 where their matching is proved to be the best of all."""
 
 
 def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners) -> Route:
@@ -44,11 +47,12 @@ def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners
     if not len(edges):
         return Route((), 0.0)
     links = _Links(points, edges, start, corners)
-    bound = links.match_hops()
+    hopped = links.match_hops()
     links.join_at_vertices()
     links.join_by_hops()
     found = links.trails()
-    return Route(tuple(found if _is_in_one_piece(edges) else _sorted(points, found, start)), bound)
+    order = found if _is_in_one_piece(edges) else _sorted(points, found, start)
+    return Route(tuple(order), hopped.bound, hopped.length - hopped.bound)
 
 
 def _is_in_one_piece(edges: Indices) -> bool:
@@ -107,17 +111,17 @@ class _Links:
             stays[here] = turn <= self.corners.lift
         self.down[one] = self.down[other] = stays
 
-    def match_hops(self) -> float:
-        """Link what is left over at odd vertices and the depot; return the distance in all, mm."""
+    def match_hops(self) -> proven.Matched:
+        """Link what is left over at odd vertices and the depot."""
         left = np.flatnonzero(self.partner[:-2] < 0)
         if not len(left):
             self.partner[-2:] = self.depot + 1, self.depot
-            return 0.0
+            return proven.Matched(np.zeros((0, 2), np.intp), 0.0, 0.0)
         ends = np.r_[left, self.depot, self.depot + 1]
-        pairs, bound = hops.match(self.places[ends])
-        one, other = ends[pairs].T
+        found = _matched(self.places[ends])
+        one, other = ends[found.pairs].T
         self.partner[one], self.partner[other] = other, one
-        return bound
+        return found
 
     def join_at_vertices(self) -> None:
         """Join tours that pass the same vertex, where exchanging their links costs least."""
@@ -169,6 +173,13 @@ class _Links:
             trail = trail or [at[end]]
             trail.append(at[end ^ 1])
         return [*found, tuple(trail)]
+
+
+def _matched(places: Floats) -> proven.Matched:
+    if len(places) - 2 <= proven.MOST:
+        return proven.match(places)
+    pairs, length = hops.match(places)
+    return proven.Matched(pairs, length, proven.least(places))
 
 
 def _meeting(vertices: Indices, tour: Indices) -> tuple[Indices, Indices]:
