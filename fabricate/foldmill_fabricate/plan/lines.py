@@ -19,6 +19,7 @@ from foldmill_fabricate.materials import Material, Perforation
 from foldmill_fabricate.passes import Face, Hole, Stroke, Tie
 from foldmill_fabricate.plan import outline, relief, scores
 from foldmill_fabricate.plan.setups import Lines
+from foldmill_fabricate.toolpath import closed
 
 Floats = NDArray[np.float64]
 ByFace = dict[Face, NDArray[np.intp]]
@@ -62,11 +63,14 @@ def drawn(
         def inner(k: int, at: Floats) -> Strokes:
             return outline.inner_cuts(pattern, spots[k], cut.repeats, at)
 
+        def outer(k: int, at: Floats) -> Strokes:
+            return tuple(closed.begun(rims[k][0], at, cut.repeats % 2 == 0))
+
         return Lines(
             _each(middles, start, score.repeats, scored),
             _each(middles, start, cut.repeats, holes),
             _each(middles, start, cut.repeats, inner),
-            _each(middles, start, cut.repeats, lambda k, _: rims[k][0]),
+            _each(middles, start, cut.repeats, outer),
         )
 
     return lines, tuple(tie for _, ties, _ in rims for tie in ties), tied

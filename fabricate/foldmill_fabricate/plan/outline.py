@@ -39,7 +39,7 @@ def inner_cuts(
     slits = pattern.edges[pattern.assignments == Assignment.C]
     found = loops + trails.straightest(spots, slits)
     strokes = [_stroke([spots[v] for v in trail]) for trail in found]
-    return order.sorted_strokes(strokes, repeats, start)
+    return order.sorted_strokes(strokes, repeats, start, nested=True)
 
 
 def outer_cut(

@@ -85,7 +85,8 @@ def strokes(
 
     start : (2,) where the tool is; offset : of the blade that programs make up for, mm.
     """
-    return order.sorted_strokes([hole_rim(hole, offset) for hole in relief], repeats, start)
+    rims = [hole_rim(hole, offset) for hole in relief]
+    return order.sorted_strokes(rims, repeats, start, nested=True)
 
 
 def findings(relief: tuple[Hole, ...], pattern: CreasePattern, spots: Floats) -> Iterator[Finding]:

@@ -66,7 +66,9 @@ def passes(
     if len(scored) == 2:
         front = lines(Face.FRONT, home)
         holes = _hole_strokes(marks, machine.tools.host_offset, home)
-        windows = order.sorted_strokes([window(mark) for mark in marks.made.marks], 1, home)
+        # A window begins where its arms meet: readers of the drawing take that for the mark.
+        rims = [window(mark) for mark in marks.made.marks]
+        windows = order.sorted_strokes(rims, 1, home, turned=False)
         name = "marks" if windows else "holes"
         drafts.append(_cut(name, Face.FRONT, material, holes=holes, marks=windows))
         drafts.append(_score(Face.FRONT, material, front.scores, marks.witness))

@@ -11,8 +11,8 @@ Indices = NDArray[np.intp]
 COMPLETE = 300
 """Up to so many points every pair is a candidate."""
 NEIGHBOURS = 12
-"""Candidates of each point beyond that. On some thousand random points the total is then up to 0.03 %
-above that of all pairs; ``proven`` finds the pairs that are missing."""
+"""Candidates of each point beyond that. On some thousand random points the total may be 0.06 % more
+than with all pairs; ``proven`` finds those that are missing."""
 _WHOLE = 1e6
 """Costs are matched in whole millionths, so that sums are exact."""
 

@@ -8,21 +8,47 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.passes import Stroke
-from foldmill_fabricate.toolpath import sequence
+from foldmill_fabricate.toolpath import closed, sequence
 
 Floats = NDArray[np.float64]
 
 
-def sorted_strokes(strokes: Sequence[Stroke], repeats: int, start: Floats) -> tuple[Stroke, ...]:
+def sorted_strokes(
+    strokes: Sequence[Stroke],
+    repeats: int,
+    start: Floats,
+    *,
+    nested: bool = False,
+    turned: bool = True,
+) -> tuple[Stroke, ...]:
     """Return the strokes in order of work and direction; start : (2,) where the tool is.
 
-    An even number of repeats ends an open stroke where it began.
+    nested : whether what lies inside a closed stroke comes before it, as it must where that is cut
+    through; turned : whether a closed stroke begins at the vertex that saves most travel. An even
+    number of repeats ends an open stroke where it began.
     """
+    returns = repeats % 2 == 0
+    depth = closed.depths(strokes) if nested else np.zeros(len(strokes), np.intp)
+    found: list[Stroke] = []
+    at = np.asarray(start, float)
+    for level in sorted(set(depth.tolist()), reverse=True):
+        own = [stroke for stroke, deep in zip(strokes, depth, strict=True) if deep == level]
+        done = _ordered(own, at, returns)
+        at = np.array(done[-1].points[0 if returns or done[-1].closed else -1])
+        found += done
+    return tuple(closed.begun(found, start, returns) if turned else found)
+
+
+def _ordered(strokes: Sequence[Stroke], start: Floats, returns: bool) -> list[Stroke]:
     ends = np.array([[s.points[0], s.points[-1]] for s in strokes]).reshape(-1, 2, 2)
-    return tuple(
-        Stroke(points=strokes[k].points[::-1]) if backwards else strokes[k]
-        for k, backwards in sequence.order(ends, start, returns=repeats % 2 == 0)
-    )
+    return [
+        _backwards(strokes[k]) if backwards and not strokes[k].closed else strokes[k]
+        for k, backwards in sequence.order(ends, start, returns=returns)
+    ]
+
+
+def _backwards(stroke: Stroke) -> Stroke:
+    return stroke.model_copy(update={"points": stroke.points[::-1]})
 
 
 def travel(paths: Sequence[Floats], start: Floats) -> float:

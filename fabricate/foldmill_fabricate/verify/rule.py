@@ -11,6 +11,7 @@ from foldmill_fabricate.verify.coupon import prove_coupon
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
+from foldmill_fabricate.verify.nesting import prove_nesting
 from foldmill_fabricate.verify.planned import planned
 from foldmill_fabricate.verify.process import prove_order, prove_process
 from foldmill_fabricate.verify.register import prove_register
@@ -34,6 +35,7 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
         *prove_copies(asked, strokes),
         *prove_creases(asked, strokes),
         *prove_cuts(asked, strokes),
+        *prove_nesting(strokes),
         *prove_relief(asked, strokes),
         *prove_waste(asked, strokes),
         *prove_register(asked, strokes),

@@ -236,6 +236,12 @@ def _without(plan: Plan, role: Role) -> Plan:
     return plan.model_copy(update={"passes": tuple(passes)})
 
 
+def a_cut_is_made_in_what_a_hole_leaves(plan: Plan) -> Plan:
+    x, y = plan.holes[0].x, plan.holes[0].y
+    slot = Stroke(points=((x - 0.5, y), (x + 0.5, y)))
+    return _edited(Role.HOLE, lambda op: _with_strokes(op, (*op.strokes, slot)))(plan)
+
+
 PLANS: dict[Callable[[Plan], Plan], str] = {
     mountains_and_valleys_are_swapped: "swapped-faces",
     a_crease_is_forgotten: "missing-score",
@@ -259,6 +265,7 @@ PLANS: dict[Callable[[Plan], Plan], str] = {
     scores_cut_through: "score-depth",
     the_witness_mark_is_left_out: "witness-missing",
     the_holes_are_left_out: "holes-missing",
+    a_cut_is_made_in_what_a_hole_leaves: "cut-in-loose-piece",
 }
 """What is done to the plan, its programs written from it afterwards, and what must be found."""
 
