@@ -56,7 +56,8 @@ class _Maker:
     def operation(
         self, role: Role, face: Face, strokes: Sequence[Stroke], repeats: int, overcut: float = 0.0
     ) -> Operation:
-        ordered = order.sorted_strokes(strokes, repeats, self.home[face])
+        # Words are read stroke by stroke: letters begin where they do in the alphabet.
+        ordered = order.sorted_strokes(strokes, repeats, self.home[face], turned=False)
         return Operation(role=role, repeats=repeats, overcut=overcut, strokes=ordered)
 
     def cut(self, name: str, face: Face, lines: Sequence[Line]) -> _Draft:
