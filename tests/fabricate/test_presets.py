@@ -20,6 +20,7 @@ from foldmill_fabricate.toml_lines import line_of
 MATERIALS = {m.slug: m for m in presets.shipped(Material, "foldmill_fabricate.materials")}
 MACHINES = {m.slug: m for m in presets.shipped(Machine, "foldmill_fabricate.machines")}
 EVERY: dict[str, Preset] = {**MATERIALS, **MACHINES}
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "machines").glob("*.toml"))
 
 
 def text(slug: str) -> str:
@@ -42,6 +43,14 @@ def test_there_are_six_materials_and_eleven_machines_and_none_is_said_to_be_trie
     assert len(MACHINES) == 11
     assert not any(material.tested for material in MATERIALS.values())
     assert not any(machine.verified for machine in MACHINES.values())
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_that_is_copied_is_a_machine_like_any_other(example: Path, home: Path) -> None:
+    (home / "machines" / example.name).write_bytes(example.read_bytes())
+    result = CliRunner().invoke(app, ["machines", "--show", example.stem])
+    assert result.exit_code == 0, result.output
+    assert example.stem in result.output
 
 
 @pytest.mark.parametrize("slug", MATERIALS)

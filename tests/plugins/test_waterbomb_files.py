@@ -309,6 +309,14 @@ def test_a_mesh_that_is_no_disk_is_refused_with_what_it_is(
         DESIGN.run(params("mesh", file))
 
 
+def test_a_mesh_does_not_lose_the_triangles_at_a_corner_that_is_nowhere(tmp_path: Path) -> None:
+    points, faces = grid(12, saddle)
+    points[14] = np.nan  # next to the border: without its triangles a disk would be left
+    file = export(tmp_path / "mesh.ply", points, faces)
+    with pytest.raises(ImpossibleGeometry, match="corner 15 is at no finite place"):
+        DESIGN.run(params("mesh", file))
+
+
 def ball() -> tuple[np.ndarray, np.ndarray]:
     import trimesh
 

@@ -144,8 +144,15 @@ def _welded(content: bytes, kind: str) -> tuple[Floats, Indices]:
 
     repair: Any = trimesh.repair
     mesh = trimesh.load_mesh(BytesIO(content), file_type=kind, process=False)
+    _require_finite(np.asarray(mesh.vertices))  # merging would drop the triangles at such corners
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.update_faces(mesh.nondegenerate_faces() & mesh.unique_faces())
     repair.fix_winding(mesh)
     mesh.remove_unreferenced_vertices()
     return np.array(mesh.vertices, np.float64), np.array(mesh.faces, np.intp)
+
+
+def _require_finite(points: Floats) -> None:
+    lost = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(lost):
+        raise ValueError(f"corner {lost[0] + 1} is at no finite place (and {len(lost) - 1} more)")

@@ -9,13 +9,12 @@ from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import BindParameter, Connection, Update, bindparam, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import words
 from foldmill_fabricate.plotter.ledger.reading import (
-    at_program,
     not_ready,
     program_row,
     sheet_record,
@@ -37,6 +36,26 @@ def ledger_file() -> Path:
     """
     home = os.environ.get("LOCALAPPDATA" if sys.platform == "win32" else "XDG_STATE_HOME")
     return (Path(home) if home else Path.home() / ".local/state") / "foldmill/ledger.sqlite"
+
+
+def _writing() -> Update:
+    """Return the statement that writes down how far the holder of a token is.
+
+    It is built once: building it takes longer than writing, and every stroke is written down.
+    """
+    sheet: BindParameter[str] = bindparam("of")
+    number: BindParameter[int] = bindparam("nth")
+    token: BindParameter[int] = bindparam("with")
+    program = (PROGRAMS.c.sheet == sheet) & (PROGRAMS.c.number == number)
+    running = select(PROGRAMS.c.sheet).where(
+        program, PROGRAMS.c.token == token, PROGRAMS.c.state == State.RUNNING.value
+    )
+    mine = (RUNS.c.sheet == sheet) & (RUNS.c.number == number) & (RUNS.c.token == token)
+    change = update(RUNS).where(mine, running.exists())
+    return change.values(sent=bindparam("sent"), acked=bindparam("acked"))
+
+
+_WRITE = _writing()
 
 
 def _utc() -> datetime:
@@ -139,15 +158,9 @@ class Ledger:
 
     def write(self, run: Run, sent: int, acked: int) -> None:
         """Write down how far a run is; raises Fenced where it lost its token."""
-        running = select(PROGRAMS.c.sheet).where(
-            at_program(run.sheet, run.number),
-            PROGRAMS.c.token == run.token,
-            PROGRAMS.c.state == State.RUNNING.value,
-        )
-        mine = (RUNS.c.sheet == run.sheet) & (RUNS.c.number == run.number)
-        change = update(RUNS).where(mine, RUNS.c.token == run.token, running.exists())
+        holder = {"of": run.sheet, "nth": run.number, "with": run.token}
         with self._engine.begin() as at:
-            done = at.execute(change.values(sent=sent, acked=acked)).rowcount
+            done = at.execute(_WRITE, {**holder, "sent": sent, "acked": acked}).rowcount
         if done != 1:
             raise Fenced(_fenced(run))
 

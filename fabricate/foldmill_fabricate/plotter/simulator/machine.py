@@ -91,6 +91,11 @@ class Simulator:
     def waiting(self) -> int:
         """Bytes that have reached the host and are not yet read."""
         self.advance()
+        return self.heard
+
+    @property
+    def heard(self) -> int:
+        """The same of the moment it was last brought to: nothing happens by asking."""
         return len(self._heard)
 
     @property
@@ -242,8 +247,8 @@ class Simulator:
             return why
         return "at rest" if self.device.idle else "moving"
 
-    def advance(self) -> None:
-        """Let everything happen up to the clock's time."""
+    def advance(self) -> float:
+        """Let everything happen up to the clock's time; return when the next thing will, s."""
         with self._lock:
             until = self.clock.now()
             while True:
@@ -258,7 +263,9 @@ class Simulator:
                     self._return(self.device.happen(event))
                 if self.honours_cts or self.device.active or self.unplugged:
                     self._sense()
-            self._pass(until)
+            if until > self._now:
+                self._pass(until)
+            return event
 
     def _sense(self) -> None:
         """Look at the cable, and at CTS where the host's end obeys it."""

@@ -69,11 +69,16 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
     @property
     def _there(self) -> Simulator:
         """The plotter, as it is now; raises SerialException where its cable has been pulled."""
+        self._bring_up()
+        return self._simulator
+
+    def _bring_up(self) -> float:
+        """Bring the plotter to the clock's time; return when something happens next, s."""
         simulator = self.simulator
-        simulator.advance()
+        event = simulator.advance()
         if simulator.visit != self._visit:
             raise SerialException(errno.EIO, "Input/output error: the device has disconnected")
-        return simulator
+        return event
 
     @property
     def clock(self) -> Clock:
@@ -83,7 +88,7 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
     @property
     def in_waiting(self) -> int:
         """Bytes that can be read at once."""
-        return self._there.waiting
+        return self._there.heard
 
     @property
     def out_waiting(self) -> int:
@@ -92,8 +97,8 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
 
     def read(self, size: int = 1) -> bytes:
         """Read up to ``size`` bytes, waiting for them as long as ``timeout`` says."""
-        self._wait(lambda: self.in_waiting >= size, self._timeout)
-        return self._there.read(size)
+        self._wait(lambda: self._simulator.heard >= size, self._timeout)
+        return self._simulator.read(size)
 
     def write(self, data: Any) -> int:
         """Queue bytes; raises SerialTimeoutException after ``write_timeout`` without room."""
@@ -103,15 +108,16 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
             room = _DRIVER - len(piece)
             if not self._wait(partial(self._fits, room), self._write_timeout):
                 raise SerialTimeoutException("Write timeout")
-            self._there.write(piece)
+            self._simulator.write(piece)
         return len(content)
 
     def _fits(self, most: int) -> bool:
-        return self.out_waiting <= most
+        return self._simulator.queued <= most
 
     def flush(self) -> None:
         """Wait until everything has left."""
-        self._wait(lambda: self.out_waiting == 0 and not self.simulator.line.sending, None)
+        line = self.simulator.line
+        self._wait(lambda: not line.queue and not line.sending, None)
 
     def reset_input_buffer(self) -> None:
         """Drop what has come and is not read."""
@@ -148,16 +154,21 @@ class Serial(SerialBase):  # type: ignore[misc]  # pyserial has no types
         return False
 
     def _wait(self, over: Callable[[], bool], timeout: float | None) -> bool:
-        """Pass time from event to event until it is over, or return False after the timeout."""
+        """Pass time from event to event until it is over, or return False after the timeout.
+
+        ``over`` looks at the plotter as it was last brought up, once for each event.
+        """
         clock = self.clock
         deadline = inf if timeout is None else clock.now() + timeout
+        event = self._bring_up()
         while not over():
             if clock.now() >= deadline:
                 return False
-            moment = min(self.simulator.next_event, deadline)
+            moment = min(event, deadline)
             if moment == inf:
                 raise SerialException("The simulated plotter is silent, and would be for ever.")
             clock.sleep_until(moment)
+            event = self._bring_up()
         return True
 
     def _reconfigure_port(self) -> None:
