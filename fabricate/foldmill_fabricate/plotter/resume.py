@@ -125,7 +125,7 @@ def rest(job: Job, machine: Machine, limit: int, start: Start) -> Job:
     timed = ready(begun + b"".join(part.data for part in after), machine)
     strokes = [stroke] * (len(timed.parts) - len(after)) + [part.stroke for part in after]
     parts = [replace(part, stroke=k) for part, k in zip(timed.parts, strokes, strict=True)]
-    return replace(timed, parts=tuple(parts))
+    return replace(timed, parts=tuple(parts), strokes=job.strokes)
 
 
 def _traced(job: Job, stroke: int) -> _Traced:
