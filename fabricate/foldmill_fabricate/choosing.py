@@ -27,8 +27,8 @@ def choose_sheet(ledger: Ledger, job: Job, faces: Sequence[Face], sheet: str) ->
         if begun:
             told = " ".join(f"Sheet {one.id}: {_told(one)}." for one in begun)
             raise LedgerRefused(
-                f"This job is begun already. {told} Name the sheet that lies on the machine, or "
-                "say that it is a new one."
+                f"This job is begun already. {told} Name the sheet that lies on the machine, "
+                f"such as --sheet {begun[0].id}, or begin another with --sheet new."
             )
         _refuse_planned_again(ledger, job)
     return ledger.lay(

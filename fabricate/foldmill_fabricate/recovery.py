@@ -6,9 +6,12 @@ The plotter layer knows strokes and places; what is a score and what a through-c
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 from typing import Any
 
 from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.jogging import carrier
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import ProgramFile, SetUp
 from foldmill_fabricate.plotter import resume
 from foldmill_fabricate.plotter.errors import LedgerRefused
@@ -19,6 +22,9 @@ from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.sender import as_sent
 from foldmill_fabricate.plotter.standing import Stand, stand
 from foldmill_fabricate.sending import Job
+
+_FEW = 3
+"""Strokes that are told one by one."""
 
 
 @dataclass(frozen=True)
@@ -37,14 +43,29 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     if last.sent == last.acked:
         return Place(Start(last.acked))  # nothing is in doubt
     machine = job.plan.machine
+    program = program_of(job, part)
+    where = _where(program, record, machine)
     found = stand(port, machine)
     if found is None:
-        return Place(None)
-    program = program_of(job, part)
+        return Place(None, where)
     start = resume.locate(program, last.acked, last.sent, found.at, is_down=found.is_down)
     if start is not None:
-        return Place(start)
-    return Place(None, _told(program, last.acked, last.sent, found, machine.axes.units_per_mm))
+        return Place(start, where)
+    return Place(None, f"{where} {_told(program, last.acked, last.sent, found, machine)}".strip())
+
+
+def _where(program: Program, record: Record, machine: Machine) -> str:
+    """Say where doubtful strokes are to be looked for: all of them, or the first and the last."""
+    strokes = [k for k in record.doubtful if resume.vertices(program, k)]
+    shown = strokes if len(strokes) <= _FEW else [strokes[0], strokes[-1]]
+    return " ".join(_line(program, k, machine) for k in shown)
+
+
+def _line(program: Program, stroke: int, machine: Machine) -> str:
+    path = [carrier(spot, machine) for spot in resume.vertices(program, stroke)]
+    far = max(path, key=lambda spot: hypot(spot[0] - path[0][0], spot[1] - path[0][1]))
+    (x, y), (u, v) = path[0], far
+    return f"Stroke {stroke + 1} lies from ({x:.1f}, {y:.1f}) to ({u:.1f}, {v:.1f}) mm on the mat."
 
 
 def program_of(job: Job, part: ProgramFile) -> Program:
@@ -53,21 +74,22 @@ def program_of(job: Job, part: ProgramFile) -> Program:
     return ready(as_sent(job.programs[part.name], machine), machine)
 
 
-def _told(program: Program, acked: int, sent: int, found: Stand, units: float) -> str:
+def _told(program: Program, acked: int, sent: int, found: Stand, machine: Machine) -> str:
     """Say in which strokes a machine may stand that does not prove from where it goes on."""
-    x, y = (value / units for value in found.at)
+    x, y = carrier(found.at, machine)
     tool = "" if found.is_down is None else ", its tool down" if found.is_down else ", its tool up"
-    where = f"The machine stands at ({x:.2f}, {y:.2f}) mm{tool}"
+    where = f"The machine stands at ({x:.1f}, {y:.1f}) mm{tool}"
     passed = resume.passes(program, acked, sent, found.at)
     if not passed:
         return f"{where}: at no vertex of a stroke that is in doubt."
-    strokes = "; ".join(
-        f"stroke {stroke + 1} comes by there at its vertex "
-        + " and ".join(map(str, vertices))
-        + f" of 0 to {len(resume.vertices(program, stroke)) - 1}"
-        for stroke, vertices in passed
-    )
+    strokes = ", and ".join(_passing(stroke, vertices) for stroke, vertices in passed)
     return f"{where}: {strokes}. Which time it was it cannot say."
+
+
+def _passing(stroke: int, vertices: list[int]) -> str:
+    at = ", ".join(map(str, vertices))
+    often = "once" if len(vertices) == 1 else f"{len(vertices)} times"
+    return f"stroke {stroke + 1} comes by there {often} (vertex {at})"
 
 
 def refuse(job: Job, part: ProgramFile, said: Said) -> None:

@@ -147,10 +147,10 @@ def test_a_person_is_told_in_which_stroke_the_machine_stands(plain: Job, ledger:
         part = part_of(plain, SCORE)
         program = recovery.program_of(plain, part)
         found = _stand(bench)
-        place = recovery._told(program, 0, program.strokes, found, 40)
+        place = recovery._told(program, 0, program.strokes, found, plain.plan.machine)
         told.append(place)
         bench.leave()
-    assert any("comes by there at its vertex 0 and 2 of 0 to 2" in each for each in told)
+    assert any("comes by there 2 times (vertex 0, 2)" in each for each in told)
     assert all("Which time it was it cannot say." in each or "no vertex" in each for each in told)
 
 

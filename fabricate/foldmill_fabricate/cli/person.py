@@ -15,6 +15,7 @@ from foldmill_fabricate.gates import Answer, Request
 from foldmill_fabricate.operators import SimulatedOperator, Verdict, said
 from foldmill_fabricate.passes import Gate
 from foldmill_fabricate.plotter.ledger import Record, Said, Word, account
+from foldmill_fabricate.plotter.ledger.words import refuse
 
 if TYPE_CHECKING:
     from foldmill_fabricate.operators import Operator
@@ -75,14 +76,18 @@ class Person:
     def wants_test_cut(self, request: Request) -> bool:
         """Offer one."""
         _tell(f"\nThe preset {request.plan.material.title} is untested.")
-        answer = _ask(f"y for a test cut of 20 mm in the waste for {request.setup.name}, Enter not")
+        answer = _ask(
+            f"y for a test cut of 20 mm in the waste for {request.setup.name} (Enter: none)"
+        )
         return answer.lower().startswith("y")
 
     def judge(self, request: Request) -> Verdict:
         """Ask what it looks like."""
         what = "bends without tearing" if request.setup.process == "score" else "is cut through"
         _tell(f"Wait until the machine stands still, and look whether the sheet {what} there.")
-        answer = _ask("Enter if it is good, a to set the tool and cut another, q to stop").lower()
+        answer = _ask(
+            "Enter if it is good, a once the tool is set anew, to cut another (q: stop)"
+        ).lower()
         return {"": Verdict.GOOD, "a": Verdict.AGAIN}.get(answer[:1], Verdict.STOP)
 
     def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
@@ -101,7 +106,7 @@ class Person:
             "cut, s to give the sheet up, or q to leave it as it is"
             + (", or Enter to go on from where the machine stands." if proved else ".")
         )
-        return _asked("How does it go on", lambda text: _word(text, proved))
+        return _asked("How does it go on", lambda text: _word(text, proved, record))
 
     def has_finished(self, record: Record) -> bool:
         """Ask: the machine cannot say."""
@@ -112,12 +117,15 @@ class Person:
         return _ask("y if it is done, Enter if not").lower().startswith("y")
 
 
-def _word(text: str, proved: Said | None) -> Said | None:
+def _word(text: str, proved: Said | None, record: Record) -> Said | None:
     if not text and proved is None:
         raise FoldmillError("Nothing proves where the machine stands; a person must say it.")
     known = {"": proved, "f": Said(Word.FINISHED), "s": Said(Word.SPOILED)}
-    lower = text.lower()
-    return known[lower[:1]] if lower[:1] in known else _place(text)
+    key = text.lower()[:1]
+    word = known[key] if key in known else _place(text)
+    if word is not None:
+        refuse(record, word)
+    return word
 
 
 def _pressed(text: str, request: Request) -> Answer:
@@ -160,16 +168,16 @@ def _back(text: str, request: Request) -> Answer:
 
 _QUESTIONS: dict[Gate, tuple[str, Callable[[str, Request], Answer]]] = {
     Gate.LOAD: (
-        "Its measured thickness, mm, and temperature, °C, such as 0.76 22, Enter if not, q to stop",
+        "Measured thickness in mm and temperature in °C, such as 0.76 22 (Enter: none; q: stop)",
         _loaded,
     ),
-    Gate.TOOL: ("Enter when it is set so, the exposure in mm if it is another, q to stop", _tooled),
+    Gate.TOOL: ("Enter when it is set so, or the exposure in mm that is set (q: stop)", _tooled),
     Gate.FLIP: (
-        "The id that is written on the sheet, and its temperature in °C if measured, q to stop",
+        "The id that is written on the sheet, and its temperature in °C if measured (q: stop)",
         _turned,
     ),
     Gate.RE_REGISTER: (
-        "The id that is written on it, and the word touched if it was moved, q to stop",
+        "The id that is written on it, and the word touched if it was moved (q: stop)",
         _back,
     ),
     Gate.REMOVE: ("Enter when it is off", _pressed),

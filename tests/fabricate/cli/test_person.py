@@ -100,7 +100,7 @@ def test_the_flip_comes_as_a_picture_too(tmp_path: Path) -> None:
 
 def in_doubt() -> Record:
     runs = (Entry(1, 0, 0, 7, 4),)
-    program = Program("2-front-score.hpgl", "front", "", 9)
+    program = Program("2-front-score.hpgl", "front", "", 7)
     return Record("K7QF", 1, program, State.INTERRUPTED, 0, 0, 0.0, "It stopped.", runs)
 
 
