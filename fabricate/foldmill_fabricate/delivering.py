@@ -1,7 +1,8 @@
 """Send a proved job program by program, keeping the ledger, and asking the operator.
 
 A program that is done is never sent again; one that ended before its end goes on only on the
-operator's word.
+operator's word. Before each the operator passes the gates that are due (``gates``), and a preset
+that nobody has tried is tried in the waste first (``trials``).
 """
 
 from __future__ import annotations
@@ -11,14 +12,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from foldmill_fabricate import gates, recovery, trials
+from foldmill_fabricate.choosing import NEW, choose_sheet
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.operators import Operator
-from foldmill_fabricate.passes import Face, ProgramFile, SetUp
-from foldmill_fabricate.plotter import link, resume, sender
+from foldmill_fabricate.gates import Request
+from foldmill_fabricate.operators import Operator, Verdict
+from foldmill_fabricate.passes import Face, Gate, ProgramFile, SetUp
+from foldmill_fabricate.plotter import link, sender
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import (
     Ledger,
-    Program,
     Record,
     Run,
     Said,
@@ -29,14 +32,14 @@ from foldmill_fabricate.plotter.ledger import (
     ledger_file,
 )
 from foldmill_fabricate.plotter.lock import held
-from foldmill_fabricate.plotter.program import ready
-from foldmill_fabricate.plotter.resume import Start
-from foldmill_fabricate.plotter.sender import Delivery, Progress, Status, as_sent
+from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.sending import Job
 
-NEW = "new"
-"""In place of a sheet's id: begin another one."""
+__all__ = ["NEW", "Sent", "Tell", "choose_sheet", "own_ledger", "send_job"]
+
 Tell = Callable[[ProgramFile, Progress], None]
+TEST_CUT, MARKS = "test-cut", "marks"
+"""What the ledger calls answers that belong to no gate."""
 _ENDS = {
     Status.EXECUTED: State.DONE,
     Status.UNCONFIRMED: State.UNCONFIRMED,
@@ -71,138 +74,199 @@ def send_job(
     tell: Tell = lambda _part, _progress: None,
     ledger: Ledger | None = None,
     sheet: str = "",
+    test_cut: bool = False,
 ) -> Iterator[Sent]:
     """Send the programs of these faces in order of work, yielding after each.
 
     url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction.
     ledger : by default the user's own. sheet : the id of a sheet that is begun, or NEW; by default
-    the one that waits for these faces, else a new one. Raises CannotSend where the operator says
-    no, LedgerRefused where the sheet is in doubt, PlotterError where the line fails. It ends early
-    after a program that is not done.
+    the one that waits for these faces, else a new one. test_cut : cut one in the waste for each
+    process without asking, whether the preset is tested or not. Raises CannotSend where the
+    operator says no or answers what cannot be, LedgerRefused where the sheet is in doubt,
+    PlotterError where the line fails. It ends early after a program that is not done.
     """
     book = ledger or own_ledger(url)
     with held(url) as device, link.open_port(url, job.plan.machine) as port:
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
+        bench = _Bench(job, operator, book, laid, port, device, test_cut)
+        bench.find_fit()
         for number, part in enumerate(job.plan.programs):
-            if part.face not in faces:
-                continue
-            work = _Work(job, part, book, laid.id, number)
-            if not work.settle(port, operator):
-                continue
-            work.pass_gates(operator)
-            delivery = work.send(port, device, partial(tell, part))
-            state = work.end(delivery, operator)
-            yield Sent(laid.id, part, delivery, state)
-            if state is not State.DONE:
-                return
+            if part.face in faces:
+                sent = bench.make(number, part, partial(tell, part))
+                yield from [sent] if sent else []
+                if sent and sent.state is not State.DONE:
+                    return
+        bench.finish()
 
 
-def choose_sheet(ledger: Ledger, job: Job, faces: Sequence[Face], sheet: str) -> SheetRecord:
-    """Return the sheet to work on; raises LedgerRefused where that is not certain."""
-    begun = ledger.open_sheets(job.id)
-    if sheet and sheet.lower() != NEW:
-        found = ledger.sheet(sheet)
-        if found.job != job.id:
-            raise LedgerRefused(
-                f"Sheet {found.id} is one of {found.title or 'another job'}, planned otherwise; "
-                "name the folder it was begun from."
-            )
-        return found
-    waiting = [one for one in begun if _waits_for(one, faces)]
-    if not sheet and len(begun) == len(waiting) == 1:
-        return waiting[0]
-    if begun and not sheet:
-        told = " ".join(f"Sheet {one.id}: {_told(one)}." for one in begun)
-        raise LedgerRefused(
-            f"This job is begun already. {told} Name the sheet that lies on the machine, or say "
-            "that it is a new one."
+class _Bench:
+    """A machine, a sheet on it, and the operator beside it."""
+
+    def __init__(
+        self,
+        job: Job,
+        operator: Operator,
+        ledger: Ledger,
+        laid: SheetRecord,
+        port: Any,
+        device: str,
+        test_cut: bool,
+    ) -> None:
+        self.job, self.operator, self.ledger, self.sheet = job, operator, ledger, laid.id
+        self.port, self.device, self.test_cut = port, device, test_cut
+        self.returned = laid.is_begun
+        """Whether somebody has worked on this sheet, and went away since."""
+        self.worked = False
+        """Whether anything was sent in this call."""
+
+    def find_fit(self) -> None:
+        """Keep the marks that were measured, or take those that were measured before."""
+        if self.job.marks:
+            self._keep_marks(self.job.marks)
+            return
+        known = [
+            one.told["marks"] for one in self.ledger.answers(self.sheet) if "marks" in one.told
+        ]
+        if known:
+            self.job = self.job.fitted([(x, y) for x, y in known[-1]])
+
+    def _keep_marks(self, marks: Sequence[tuple[float, float]]) -> None:
+        told = {"marks": [list(mark) for mark in marks]}
+        self.ledger.answer(self.sheet, None, MARKS, told)
+
+    def make(self, number: int, part: ProgramFile, tell: Callable[[Progress], None]) -> Sent | None:
+        """Make one program of the sheet; None where nothing is left of it."""
+        work = _Work(self, part, number)
+        if not work.settle():
+            return None
+        work.pass_gates()
+        work.try_presets()
+        delivery = work.send(tell)
+        self.worked, self.returned = True, False
+        return Sent(self.sheet, part, delivery, work.end(delivery))
+
+    def finish(self) -> None:
+        """Have the sheet taken off where all of it is made."""
+        if not self.worked or self.ledger.sheet(self.sheet).is_open:
+            return
+        last = self.job.plan.passes[-1]
+        request = self.request(Gate.REMOVE, last.face, last.setups[-1])
+        answer = self.operator.ready(request)
+        if answer is not None:
+            self.ledger.answer(self.sheet, None, Gate.REMOVE, answer.told, answer.who)
+
+    def request(self, gate: Gate, face: Face, setup: SetUp) -> Request:
+        """Return what the operator is asked for."""
+        measured = [one.told.get("thickness") for one in self.ledger.answers(self.sheet)]
+        known = [float(each) for each in measured if each is not None]
+        return Request(
+            gate,
+            face,
+            setup,
+            self.job.plan,
+            self.sheet,
+            known[-1] if known else None,
+            bool(self.job.marks),
+            self.job.path / f"flip-{self.sheet}.png" if gate is Gate.FLIP else None,
         )
-    return ledger.lay(
-        job.id,
-        [_program(job, part) for part in job.plan.programs],
-        title=job.plan.title,
-        machine=job.plan.machine.slug,
-        material=job.plan.material.slug,
-    )
 
 
-def _waits_for(sheet: SheetRecord, faces: Sequence[Face]) -> bool:
-    """Tell whether all that is asked for is still to be begun, and nothing else is in doubt."""
-    asked = [record for record in sheet.records if record.program.face in faces]
-    settled = {State.READY, State.DONE}
-    return all(record.state is State.READY for record in asked) and all(
-        record.state in settled for record in sheet.records
-    )
-
-
-def _told(sheet: SheetRecord) -> str:
-    return ", ".join(f"{record.program.name} {record.state.value}" for record in sheet.records)
-
-
-def _program(job: Job, part: ProgramFile) -> Program:
-    machine = job.plan.machine
-    strokes = ready(as_sent(job.programs[part.name], machine), machine).strokes
-    return Program(part.name, part.face, part.sha256, strokes)
-
-
-@dataclass
 class _Work:
     """One program of a sheet."""
 
-    job: Job
-    part: ProgramFile
-    ledger: Ledger
-    sheet: str
-    number: int
-    run: Run | None = None
+    def __init__(self, bench: _Bench, part: ProgramFile, number: int) -> None:
+        self.bench, self.part, self.number = bench, part, number
+        self.ledger, self.sheet = bench.ledger, bench.sheet
+        self.run: Run | None = None
 
-    def settle(self, port: Any, operator: Operator) -> bool:
+    @property
+    def record(self) -> Record:
+        """What the ledger says of it now."""
+        return self.ledger.record(self.sheet, self.number)
+
+    @property
+    def setups(self) -> list[SetUp]:
+        """Its set-ups, in order of work."""
+        every = [one for work in self.bench.job.plan.passes for one in work.setups]
+        return [one for one in every if one.number in self.part.setups]
+
+    def settle(self) -> bool:
         """Have what is in doubt decided; False where nothing is left to be sent."""
         record = self.ledger.recover(self.sheet, self.number)
         if record.state in {State.INTERRUPTED, State.UNCONFIRMED}:
-            word = operator.decide(record, self._where(record, port))
+            place = recovery.standing(self.bench.job, self.part, record, self.bench.port)
+            word = self.bench.operator.decide(record, place.start, place.told)
             if word is None:
                 raise LedgerRefused(
                     f"{record.program.name} of sheet {self.sheet} is {record.state.value}. "
                     f"{record.note} {account(record)} It goes on only on a person's word."
                 )
+            recovery.refuse(self.bench.job, self.part, word)
             record = self.ledger.say(self.sheet, self.number, word)
         if record.state is State.SPOILED:
             raise CannotSend(f"Sheet {self.sheet} is given up; begin a new one.")
         return record.state is not State.DONE
 
-    def _where(self, record: Record, port: Any) -> Start | None:
-        """Return where the machine proves to stand."""
-        last = record.runs[-1]
-        if last.sent == last.acked:
-            return Start(last.acked)  # nothing is in doubt
-        place = sender.whereabouts(port, self.job.plan.machine)
-        return place and resume.locate(self._job(), last.acked, last.sent, place)
-
-    def _job(self) -> Any:
-        machine = self.job.plan.machine
-        return ready(as_sent(self.job.programs[self.part.name], machine), machine)
-
-    def pass_gates(self, operator: Operator) -> None:
+    def pass_gates(self) -> None:
         """Have the operator do what is due before this program."""
-        plan = self.job.plan
-        setup = self._setup()
-        if not all(operator.ready(gate, self.part.face, setup, plan) for gate in setup.gates):
-            raise CannotSend(f"Stopped before {self.part.name}, as the operator said.")
+        bench, setup = self.bench, self.setups[0]
+        begun = bool(self.record.runs)
+        wanted = gates.due(setup, bench.job.plan, returned=bench.returned, begun=begun)
+        for gate in wanted:
+            request = bench.request(gate, self.part.face, setup)
+            answer = bench.operator.ready(request)
+            if answer is None:
+                raise CannotSend(f"Stopped before {self.part.name}, as the operator said.")
+            gates.check(request, answer)
+            if answer.marks:
+                bench.job = bench.job.fitted(answer.marks)
+            self.ledger.answer(self.sheet, self.number, gate, answer.told, answer.who)
 
-    def _setup(self) -> SetUp:
-        setups = {one.number: one for work in self.job.plan.passes for one in work.setups}
-        return setups[self.part.setups[0]]
+    def try_presets(self) -> None:
+        """Cut in the waste what nobody has tried, before anything of the part is cut so."""
+        plan = self.bench.job.plan
+        if self.record.runs or plan.coupon is not None:
+            return
+        for setup in self.setups:
+            if trials.first_of_its_process(plan, setup):
+                self._try(setup)
 
-    def send(self, port: Any, device: str, tell: Callable[[Progress], None]) -> Delivery:
+    def _try(self, setup: SetUp) -> None:
+        bench = self.bench
+        request = bench.request(Gate.TOOL, self.part.face, setup)
+        asked = not bench.test_cut and not bench.job.plan.material.tested
+        wanted = bench.test_cut or (asked and bench.operator.wants_test_cut(request))
+        attempt = 0
+        while wanted:
+            program = trials.trial_program(bench.job, self.part.face, setup, attempt)
+            delivery = sender.send(program, bench.port, bench.job.plan.machine)
+            if delivery.fault:
+                raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
+            verdict = bench.operator.judge(request)
+            told = {"set-up": setup.name, "attempt": attempt + 1, "verdict": verdict.value}
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, told)
+            if verdict is Verdict.STOP:
+                raise CannotSend(
+                    f"The test cut for {setup.name} is not as it should be, and nothing of the "
+                    "part is cut with that setting. Set exposure or force, or change the preset "
+                    "and plan again; then send again."
+                )
+            wanted, attempt = verdict is Verdict.AGAIN, attempt + 1
+
+    def send(self, tell: Callable[[Progress], None]) -> Delivery:
         """Deliver it; however that ends, the ledger knows."""
-        plan, program = self.job.plan, self.job.programs[self.part.name]
-        record = self.ledger.record(self.sheet, self.number)
-        start = Start(record.first, record.vertex, record.overlap, self._again(record))
-        self.run = self.ledger.claim(self.sheet, self.number, device)
+        job = self.bench.job
+        record = self.record
+        start = recovery.start_of(job, self.part, record)
+        self.run = self.ledger.claim(self.sheet, self.number, self.bench.device)
         try:
             return sender.send(
-                program, port, plan.machine, progress=tell, start=start, book=self.run
+                job.programs[self.part.name],
+                self.bench.port,
+                job.plan.machine,
+                progress=tell,
+                start=start,
+                book=self.run,
             )
         except Fenced:
             raise
@@ -210,13 +274,7 @@ class _Work:
             self.run.end(State.INTERRUPTED, str(error) or type(error).__name__)
             raise
 
-    def _again(self, record: Record) -> tuple[int, ...]:
-        """Return the lead-in that a blade needs which nobody knows how it points."""
-        if not self.job.plan.machine.tools.host_offset:
-            return ()
-        return resume.lead_in(self._job(), record.first)
-
-    def end(self, delivery: Delivery, operator: Operator) -> State:
+    def end(self, delivery: Delivery) -> State:
         """Give the token back and say how the program stands.
 
         Where a machine can never answer, a person says whether it has finished. One that can, and
@@ -225,8 +283,8 @@ class _Work:
         assert self.run is not None
         state = _ENDS[delivery.status]
         self.run.end(state, delivery.fault)
-        record = self.ledger.record(self.sheet, self.number)
-        cannot_say = state is State.UNCONFIRMED and not self.job.plan.machine.serial.answers
-        if cannot_say and operator.has_finished(record):
+        answers = self.bench.job.plan.machine.serial.answers
+        cannot_say = state is State.UNCONFIRMED and not answers
+        if cannot_say and self.bench.operator.has_finished(self.record):
             return self.ledger.say(self.sheet, self.number, Said(Word.FINISHED)).state
         return state

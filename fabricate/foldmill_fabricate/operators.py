@@ -2,25 +2,45 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Protocol
 
-from foldmill_fabricate.passes import Face, Gate, Plan, SetUp
+from foldmill_fabricate.gates import Answer, Request
+from foldmill_fabricate.passes import Gate
 from foldmill_fabricate.plotter.ledger import Record, Said, Word
 from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.simulator import devices
 
 
+class Verdict(StrEnum):
+    """What a person says of a test cut."""
+
+    GOOD = "good"
+    AGAIN = "again"
+    """the tool was set anew; cut another"""
+    STOP = "stop"
+
+
 class Operator(Protocol):
     """Whoever stands at the machine."""
 
-    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:
-        """Do what the gate asks for, ``face`` up; False ends the job before the set-up starts."""
+    def ready(self, request: Request) -> Answer | None:
+        """Do what the gate asks for; None ends the job before the set-up starts."""
         ...
 
-    def decide(self, record: Record, found: Start | None) -> Said | None:
+    def wants_test_cut(self, request: Request) -> bool:
+        """Say whether an untested preset is tried in the waste first."""
+        ...
+
+    def judge(self, request: Request) -> Verdict:
+        """Look at a test cut, once the machine stands still."""
+        ...
+
+    def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
         """Say how a program goes on that ended before its end; None leaves it as it is.
 
-        found : where the machine proves to stand; None where it cannot, or stands nowhere.
+        found : where the machine proves to stand; None where it cannot, or stands nowhere. told :
+        what is known of where it stands, a sentence; empty for nothing.
         """
         ...
 
@@ -45,15 +65,24 @@ class SimulatedOperator:
     def __init__(self, url: str) -> None:
         self._simulator = devices.behind(url)
 
-    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:  # noqa: ARG002
+    def ready(self, request: Request) -> Answer | None:
         """Do it at once."""
-        if gate is Gate.LOAD:
+        if request.gate is Gate.LOAD:
             self._simulator.new_sheet()
-        if gate in {Gate.LOAD, Gate.FLIP} and self._simulator.sheet.up is not face:
+        turned = request.gate in {Gate.LOAD, Gate.FLIP, Gate.RE_REGISTER}
+        if turned and self._simulator.sheet.up is not request.face:
             self._simulator.flip()
-        return True
+        return Answer(sheet=request.sheet)
 
-    def decide(self, record: Record, found: Start | None) -> Said | None:
+    def wants_test_cut(self, request: Request) -> bool:  # noqa: ARG002
+        """Nothing can be learnt of a material that is not there."""
+        return False
+
+    def judge(self, request: Request) -> Verdict:  # noqa: ARG002
+        """Find every cut good."""
+        return Verdict.GOOD
+
+    def decide(self, record: Record, found: Start | None, told: str) -> Said | None:  # noqa: ARG002
         """Go on from the proved place."""
         return said(record, found) if found else None
 

@@ -60,11 +60,15 @@ class Role(StrEnum):
 
 
 class Gate(StrEnum):
-    """What the operator does before a set-up starts."""
+    """What the operator does before a set-up starts; the last two follow from what has happened."""
 
     LOAD = "load"
     TOOL = "tool"
     FLIP = "flip"
+    RE_REGISTER = "re-register"
+    """before work goes on on a sheet that was left: is it where it was?"""
+    REMOVE = "remove"
+    """after the last set-up"""
 
 
 class _Value(BaseModel):

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from foldmill import CreasePattern
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.formats import hpgl
@@ -18,7 +19,7 @@ from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Job:
     """A verified job folder, its reverse fitted where marks were measured."""
 
@@ -26,11 +27,32 @@ class Job:
     programs: Mapping[str, bytes]
     proof: Verification
     fit: MarkFit | None
+    pattern: CreasePattern
+    path: Path
+    marks: tuple[tuple[float, float], ...] = ()
+    """What it was fitted to, carrier coordinates in mm."""
 
     @property
     def id(self) -> str:
         """SHA-256 of the plan: what the ledger knows the job by."""
         return hashlib.sha256(self.plan.model_dump_json().encode()).hexdigest()
+
+    def fitted(self, marks: Sequence[tuple[float, float]]) -> Job:
+        """Return the job with its reverse written anew to fit measured marks, and proved again.
+
+        marks : carrier coordinates in mm. Raises CannotSend where they do not explain a sheet, or
+        the programs do not verify.
+        """
+        fit = fit_marks(self.plan, marks)
+        programs = {**self.programs} | {
+            part.name: hpgl.program(self.plan, part.setups, fit.fit)
+            for part in self.plan.programs
+            if part.face is Face.REVERSE
+        }
+        proof = verify(self.plan, self.pattern, programs, fit.fit)
+        _refuse(proof, self.path)
+        measured = tuple((float(x), float(y)) for x, y in marks)
+        return replace(self, programs=programs, proof=proof, fit=fit, marks=measured)
 
 
 def open_job(
@@ -55,17 +77,8 @@ def open_job(
     programs = {part.name: files.programs[part.name] for part in plan.programs}
     if witness is not None:
         check_witness(plan, witness)
-    if not marks:
-        return Job(plan, programs, proof, None)
-    fit = fit_marks(plan, marks)
-    programs |= {
-        part.name: hpgl.program(plan, part.setups, fit.fit)
-        for part in plan.programs
-        if part.face is Face.REVERSE
-    }
-    proof = verify(plan, files.pattern, programs, fit.fit)
-    _refuse(proof, path)
-    return Job(plan, programs, proof, fit)
+    job = Job(plan, programs, proof, None, files.pattern, path)
+    return job.fitted(marks) if marks else job
 
 
 def _refuse(proof: Verification, path: Path) -> None:

@@ -18,9 +18,10 @@ from foldmill import installed
 from foldmill_fabricate import folder
 from foldmill_fabricate.delivering import NEW, Sent, Tell, send_job
 from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.gates import Answer, Request
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.operators import SimulatedOperator
+from foldmill_fabricate.operators import SimulatedOperator, Verdict
 from foldmill_fabricate.passes import Face, Plan, ProgramFile
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.clock import RealClock
@@ -96,10 +97,12 @@ class Scripted(SimulatedOperator):
         super().__init__(url)
         self.words: list[Said | None] = []
         self.asked: list[tuple[Record, Start | None]] = []
+        self.told: list[str] = []
 
-    def decide(self, record: Record, found: Start | None) -> Said | None:
+    def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
         self.asked.append((record, found))
-        return self.words.pop(0) if self.words else super().decide(record, found)
+        self.told.append(told)
+        return self.words.pop(0) if self.words else super().decide(record, found, told)
 
 
 @pytest.fixture
@@ -171,7 +174,6 @@ def test_a_stopped_program_goes_on_where_the_machine_stands(
     (sheet,) = ledger.open_sheets()
     found = sheet.records[0]
     assert found.state is State.INTERRUPTED
-    bench.operator.ready = lambda *_: True  # type: ignore[method-assign]  # it lies there still
     bench.operator.words = []
     sent = list(send_job(job, bench.url, bench.operator, FRONT, ledger=ledger, sheet=sheet.id))
     record, start = bench.operator.asked[0]
@@ -250,11 +252,13 @@ HOST = """
 import sys
 from pathlib import Path
 from foldmill_fabricate.delivering import send_job
-from foldmill_fabricate.operators import Operator
+from foldmill_fabricate.gates import Answer
 from foldmill_fabricate.sending import open_job
 
 class Hands:
-    def ready(self, *_): return True
+    def ready(self, request): return Answer(sheet=request.sheet)
+    def wants_test_cut(self, *_): return False
+    def judge(self, *_): raise AssertionError
     def decide(self, *_): return None
     def has_finished(self, *_): return False
 
@@ -291,10 +295,16 @@ def test_after_a_killed_host_the_truth_lies_between_certain_and_doubtful(
 class Terminal:
     """A person who believes the machine where it proves its place."""
 
-    def ready(self, *_: object) -> bool:
-        return True
+    def ready(self, request: Request) -> Answer:
+        return Answer(sheet=request.sheet)
 
-    def decide(self, record: Record, found: Start | None) -> Said | None:
+    def wants_test_cut(self, _request: Request) -> bool:
+        return False
+
+    def judge(self, _request: Request) -> Verdict:
+        return Verdict.GOOD
+
+    def decide(self, record: Record, found: Start | None, _told: str) -> Said | None:
         assert found is not None
         assert record.runs[-1].acked <= found.stroke
         return Said(Word.GO_ON, found.stroke, found.vertex)

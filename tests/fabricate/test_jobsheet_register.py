@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from fabricate.verify.test_register import made
 
-from foldmill_fabricate.cli.person import instruction
+from foldmill_fabricate.cli.instructions import instruction
+from foldmill_fabricate.gates import Request
 from foldmill_fabricate.jobsheet import register
 from foldmill_fabricate.passes import Face, Gate, Plan
 
@@ -14,7 +15,7 @@ def setup_of(plan: Plan, face: Face) -> str:
     """What the operator is told when the sheet is laid with this face up."""
     work = next(each for each in plan.passes if each.face is face)
     gate = Gate.LOAD if face is Face.FRONT else Gate.FLIP
-    return instruction(gate, face, work.setups[0], plan)
+    return instruction(Request(gate, face, work.setups[0], plan, "K7QF"))
 
 
 def test_stops_are_named_for_both_passes_in_one_row_each() -> None:

@@ -16,6 +16,7 @@ from foldmill_fabricate.cli import (
     catalogue,
     designing,
     exploring,
+    leading,
     making,
     moving,
     running,
@@ -41,6 +42,7 @@ searching.add_to(app)
 making.add_to(app)
 testing.add_to(app)
 running.add_to(app)
+leading.add_to(app)
 sheets.add_to(app)
 
 

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeVar
 
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.operators import SimulatedOperator, said
-from foldmill_fabricate.passes import Face, Gate, Plan, SetUp
+from foldmill_fabricate import gates
+from foldmill_fabricate.cli import instructions
+from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.gates import Answer, Request
+from foldmill_fabricate.operators import SimulatedOperator, Verdict, said
+from foldmill_fabricate.passes import Gate
 from foldmill_fabricate.plotter.ledger import Record, Said, Word, account
+from foldmill_fabricate.plotter.ledger.words import refuse
 
 if TYPE_CHECKING:
     from foldmill_fabricate.operators import Operator
     from foldmill_fabricate.plotter.resume import Start
+
+T = TypeVar("T")
+_STOP = "q"
 
 
 def operator(url: str, yes: bool, word: Said | None = None) -> Operator:
@@ -47,94 +56,164 @@ def _place(text: str, overlap: float = 0.0) -> Said:
 
 
 class Person:
-    """The operator at a terminal: told what to do, asked to press Enter."""
+    """The operator at a terminal; every prompt takes q to stop."""
 
     def __init__(self, word: Said | None = None) -> None:
         self._word = word
 
-    def ready(self, gate: Gate, face: Face, setup: SetUp, plan: Plan) -> bool:
-        """Print what the gate asks for, and wait."""
-        typer.echo(instruction(gate, face, setup, plan), err=True)
-        return not _ask("Enter to go on, q to stop").lower().startswith("q")
+    def ready(self, request: Request) -> Answer | None:
+        """Print what the gate asks for, and ask until the answer can be."""
+        _tell("\n" + instructions.instruction(request))
+        question, read = _QUESTIONS[request.gate]
 
-    def decide(self, record: Record, found: Start | None) -> Said | None:
+        def judged(text: str) -> Answer:
+            answer = read(text, request)
+            gates.check(request, answer)
+            return answer
+
+        return _asked(question, judged)
+
+    def wants_test_cut(self, request: Request) -> bool:
+        """Offer one."""
+        _tell(f"\nThe preset {request.plan.material.title} is untested.")
+        answer = _ask(
+            f"y for a test cut of 20 mm in the waste for {request.setup.name} (Enter: none)"
+        )
+        return answer.lower().startswith("y")
+
+    def judge(self, request: Request) -> Verdict:
+        """Ask what it looks like."""
+        what = "bends without tearing" if request.setup.process == "score" else "is cut through"
+        _tell(f"Wait until the machine stands still, and look whether the sheet {what} there.")
+        answer = _ask(
+            "Enter if it is good, a once the tool is set anew, to cut another (q: stop)"
+        ).lower()
+        return {"": Verdict.GOOD, "a": Verdict.AGAIN}.get(answer[:1], Verdict.STOP)
+
+    def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
         """Tell what is certain and ask how it goes on; what was said beforehand is not asked."""
         if self._word is not None:
             word, self._word = self._word, None
             return word
-        typer.echo(f"{record.program.name} of sheet {record.sheet} ended early.", err=True)
-        typer.echo(f"{record.note} {account(record)}".strip(), err=True)
+        _tell(f"{record.program.name} of sheet {record.sheet} ended early.")
+        for sentence in (record.note, account(record), told):
+            _tell(sentence) if sentence else None
         proved = said(record, found) if found else None
         if proved is not None:
-            typer.echo(f"The machine stands where it can {proved}.", err=True)
-        typer.echo(
+            _tell(f"The machine stands where it can {proved}.")
+        _tell(
             "Look at the sheet. Type the number of the first stroke that is not cut, f if all is "
             "cut, s to give the sheet up, or q to leave it as it is"
-            + (", or Enter to go on from where the machine stands." if proved else "."),
-            err=True,
+            + (", or Enter to go on from where the machine stands." if proved else ".")
         )
-        return self._answer(proved)
-
-    def _answer(self, proved: Said | None) -> Said | None:
-        answer = _ask("How does it go on").lower()
-        if not answer:
-            return proved
-        if answer.startswith("q"):
-            return None
-        known = {"f": Said(Word.FINISHED), "s": Said(Word.SPOILED)}
-        return known.get(answer[0]) or _place(answer)
+        return _asked("How does it go on", lambda text: _word(text, proved, record))
 
     def has_finished(self, record: Record) -> bool:
         """Ask: the machine cannot say."""
-        typer.echo(
+        _tell(
             f"All of {record.program.name} is sent, and this machine cannot say when it is done. "
-            "Wait until it stands still and look at the sheet.",
-            err=True,
+            "Wait until it stands still and look at the sheet."
         )
         return _ask("y if it is done, Enter if not").lower().startswith("y")
+
+
+def _word(text: str, proved: Said | None, record: Record) -> Said | None:
+    if not text and proved is None:
+        raise FoldmillError("Nothing proves where the machine stands; a person must say it.")
+    known = {"": proved, "f": Said(Word.FINISHED), "s": Said(Word.SPOILED)}
+    key = text.lower()[:1]
+    word = known[key] if key in known else _place(text)
+    if word is not None:
+        refuse(record, word)
+    return word
+
+
+def _pressed(text: str, request: Request) -> Answer:
+    if text:
+        raise FoldmillError("Press Enter, or q.")
+    return Answer(sheet=request.sheet)
+
+
+def _loaded(text: str, request: Request) -> Answer:
+    thickness, temperature = _numbers(text, "thickness and temperature, such as 0.76 22", 2)
+    return Answer(sheet=request.sheet, thickness=thickness, temperature=temperature)
+
+
+def _tooled(text: str, request: Request) -> Answer:
+    (exposure,) = _numbers(text, "another exposure in mm, such as 0.45", 1)
+    return Answer(sheet=request.sheet, exposure=exposure)
+
+
+def _turned(text: str, request: Request) -> Answer:  # noqa: ARG001
+    name, _, rest = text.partition(" ")
+    (temperature,) = _numbers(rest, "the id and the temperature, such as K7QF 22", 1)
+    return Answer(sheet=name, temperature=temperature)
+
+
+def _back(text: str, request: Request) -> Answer:
+    name, _, rest = text.partition(" ")
+    touched = rest.strip().lower()
+    if touched not in {"", "touched"}:
+        raise FoldmillError("Write the id, and touched after it if the sheet was moved.")
+    answer = Answer(sheet=name, touched=bool(touched))
+    at_marks = request.plan.registration.kind in {"holes", "pins"}
+    if not touched or request.fitted or request.face == "front" or not at_marks:
+        return answer
+    from foldmill_fabricate.cli.running import read_marks
+
+    _tell("Measure where its registration marks are seen now, mm on the mat, at least two.")
+    marks = tuple(read_marks(_ask("x1,y1;x2,y2;…")))
+    return Answer(sheet=name, touched=True, marks=marks)
+
+
+_QUESTIONS: dict[Gate, tuple[str, Callable[[str, Request], Answer]]] = {
+    Gate.LOAD: (
+        "Measured thickness in mm and temperature in °C, such as 0.76 22 (Enter: none; q: stop)",
+        _loaded,
+    ),
+    Gate.TOOL: ("Enter when it is set so, or the exposure in mm that is set (q: stop)", _tooled),
+    Gate.FLIP: (
+        "The id that is written on the sheet, and its temperature in °C if measured (q: stop)",
+        _turned,
+    ),
+    Gate.RE_REGISTER: (
+        "The id that is written on it, and the word touched if it was moved (q: stop)",
+        _back,
+    ),
+    Gate.REMOVE: ("Enter when it is off", _pressed),
+}
+
+
+def _numbers(text: str, what: str, most: int) -> list[float | None]:
+    """Read up to so many numbers; None for each that is not given."""
+    words = text.replace(",", " ").split()
+    try:
+        found: list[float | None] = [float(word) for word in words]
+    except ValueError:
+        found = [None] * (most + 1)
+    if len(found) > most:
+        raise FoldmillError(f"Write {what}, not {text!r}.")
+    return found + [None] * (most - len(found))
+
+
+def _asked(question: str, read: Callable[[str], T]) -> T | None:
+    """Ask until the answer can be read and is allowed; None where the person stops."""
+    while True:
+        text = _ask(question)
+        if text.lower() == _STOP:
+            return None
+        try:
+            return read(text)
+        except (FoldmillError, CannotSend) as refusal:
+            _tell(str(refusal))
+
+
+def _tell(words: str) -> None:
+    typer.echo(words, err=True)
 
 
 def _ask(question: str) -> str:
     try:
         return str(typer.prompt(question, default="", show_default=False, err=True)).strip()
     except typer.Abort:
-        return "q"
-
-
-def instruction(gate: Gate, face: Face, setup: SetUp, plan: Plan) -> str:
-    """Return in words what the operator has to do before a set-up on that face."""
-    if gate is Gate.LOAD:
-        side = "front (outside)" if face is Face.FRONT else "reverse (inside)"
-        return (
-            f"Load a {plan.sheet.width:g} × {plan.sheet.height:g} mm sheet of "
-            f"{plan.material.title} on the mat, its lower left corner at "
-            f"({plan.sheet.dx:g}, {plan.sheet.dy:g}) mm, the {side} up.{_against(face, plan)}"
-        )
-    if gate is Gate.FLIP:
-        side = "bottom" if plan.flip.kind == "left-right" else "left"
-        return (
-            f"Turn the sheet over {plan.flip.kind}: the {side} edge stays where it is. The F in "
-            f"the waste must now be on the underside.{_against(face, plan)}"
-        )
-    return (
-        f"Set the tool for {setup.name}: exposure {setup.exposure:g} mm, force {setup.force:g} gf, "
-        f"speed {setup.speed / 10:g} cm/s."
-    )
-
-
-def _against(face: Face, plan: Plan) -> str:
-    """Return what to do about registration when the sheet is laid, after a blank; or nothing."""
-    made = plan.registration
-    if made.kind == "edge":
-        spots = ", ".join(
-            f"{stop.edge} ({stop.x:g}, {stop.y:g})" for stop in made.stops if stop.face is face
-        )
-        return f" Push its edges against the stops, mm on the mat: {spots}."
-    if face is Face.FRONT:
-        return ""
-    if made.kind == "pins":
-        spots = " and ".join(f"({x:g}, {y:g})" for x, y in made.pins)
-        return f" Press it down over the pins at {spots} mm."
-    if made.kind == "l-marks":
-        return " Put dark tape under the cut marks first, and let the machine search them now."
-    return ""
+        return _STOP

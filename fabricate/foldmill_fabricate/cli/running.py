@@ -67,6 +67,10 @@ def send(
     temperature: Annotated[
         str | None, typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24.")
     ] = None,
+    test_cut: Annotated[
+        bool,
+        typer.Option("--test-cut", help="Try each process first: 20 mm in the waste."),
+    ] = False,
     yes: Annotated[
         bool, typer.Option("--yes", help="Answer every prompt; on simulators only.")
     ] = False,
@@ -100,7 +104,8 @@ def send(
     bar = ProgressLine(as_json)
     with stopping_on_signals():
         hands = operator(port, yes, word)
-        for sent in send_job(job, port, hands, faces, bar.tell, sheet=sheet):
+        parts = send_job(job, port, hands, faces, bar.tell, sheet=sheet, test_cut=test_cut)
+        for sent in parts:
             if not done:
                 bar.end(f"Sheet {sent.sheet}")
             done.append(sent)

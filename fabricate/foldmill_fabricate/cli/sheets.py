@@ -79,6 +79,8 @@ def _program(record: Record) -> str:
     from foldmill_fabricate.plotter.ledger import State, account
 
     told = f"{record.program.name:28} {record.state.value}"
+    if record.state is State.RUNNING:
+        return f"{told}, or killed: send tells. {account(record)}"
     if record.state in {State.INTERRUPTED, State.UNCONFIRMED, State.SPOILED} and record.runs:
         told += f". {record.note} {account(record)}".replace(". .", ".").replace("  ", " ")
     return told

@@ -20,8 +20,11 @@ Floats = NDArray[np.float64]
 INK, PALE, MARK, STOP = "#202020", "#909090", "#8000a0", "#c03000"
 
 
-def draw(axes: Axes, plan: Plan, *, after: bool) -> None:
-    """Draw the blank before or after the flip, holes numbered alike, the witness mark in place."""
+def draw(axes: Axes, plan: Plan, *, after: bool, name: str = "") -> None:
+    """Draw the blank before or after the flip, holes numbered alike, the witness mark in place.
+
+    name : the id that is written on this very sheet, if it has one yet.
+    """
     sheet, span = plan.sheet, max(plan.sheet.width, plan.sheet.height)
     w, h = sheet.width, sheet.height
     axes.fill(
@@ -31,8 +34,8 @@ def draw(axes: Axes, plan: Plan, *, after: bool) -> None:
     _draw_part(axes, plan, after=after)
     _draw_marks(axes, plan, after=after)
     _draw_stops(axes, plan, Face.REVERSE if after else Face.FRONT)
-    name = "REVERSE up" if after else "FRONT up"
-    axes.text(w / 2, h / 2, name, ha="center", va="center", fontsize=11, weight="bold", color=INK)
+    words = ("REVERSE up" if after else "FRONT up") + (f"\n{name}" if name else "")
+    axes.text(w / 2, h / 2, words, ha="center", va="center", fontsize=11, weight="bold", color=INK)
     if not after:
         _draw_arrow(axes, plan, span)
     axes.set_xlim(-0.16 * span, w + 0.08 * span)
@@ -124,10 +127,14 @@ def _draw_arrow(axes: Axes, plan: Plan, span: float) -> None:
     axes.annotate("", xy=end, xytext=start, arrowprops=arrow, annotation_clip=False)
 
 
-def flip_picture(plan: Plan) -> bytes:
-    """Return a PNG of the sheet before and after the flip, with what keeps it in register."""
+def flip_picture(plan: Plan, name: str = "") -> bytes:
+    """Return a PNG of the sheet before and after the flip, with what keeps it in register.
+
+    name : the id that is written on the sheet.
+    """
     with canvas.own_style():
         figure = canvas.figure(170, 84)
         for k, after in enumerate((False, True)):
-            draw(canvas.flat_axes(figure, (0.02 + 0.49 * k, 0.02, 0.47, 0.96)), plan, after=after)
+            axes = canvas.flat_axes(figure, (0.02 + 0.49 * k, 0.02, 0.47, 0.96))
+            draw(axes, plan, after=after, name=name)
         return canvas.png(figure)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from math import hypot
 
 from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.plotter import blade
 from foldmill_fabricate.plotter.errors import ProgramRefused
 from foldmill_fabricate.plotter.program import PART, XY, Job, numbers, ready, rechunk
 
@@ -72,21 +73,35 @@ def lead_in(job: Job, stroke: int) -> tuple[int, ...]:
     return (first,) if first < stroke else ()
 
 
-def locate(job: Job, acked: int, sent: int, at: XY) -> Start | None:
+def locate(job: Job, acked: int, sent: int, at: XY, *, is_down: bool | None = None) -> Start | None:
     """Return from where a tool that stands at ``at`` (steps) goes on.
 
-    acked, sent : strokes that are cut, and that may be. None where it stands at no vertex of what
-    is in doubt, or could stand at several: a stroke that is repeated comes by again.
+    acked, sent : strokes that are cut, and that may be; is_down : whether the tool is in the sheet,
+    None for not known. None where it stands at no vertex of what is in doubt, or could stand at
+    several: a stroke that is repeated comes by again. A tool that is down has left the stroke's
+    first vertex behind, for it is lowered by the instruction that moves it.
     """
     found = {
-        Start(k + 1) if v == len(path) - 1 else Start(k, v)
-        for k in range(max(0, acked - 1), sent)
-        for path in [vertices(job, k)]
-        for v, spot in enumerate(path)
-        if max(abs(spot[0] - at[0]), abs(spot[1] - at[1])) <= STEP
+        Start(k + 1) if v == len(vertices(job, k)) - 1 else Start(k, v)
+        for k, passed in passes(job, acked - 1, sent, at)
+        for v in passed
+        if v or not is_down
     }
     found = {start for start in found if start.stroke >= acked}
     return found.pop() if len(found) == 1 else None
+
+
+def passes(job: Job, first: int, last: int, at: XY) -> list[tuple[int, list[int]]]:
+    """Return which strokes from ``first`` to before ``last`` come by a place (steps), and where.
+
+    Each with the numbers of its vertices there.
+    """
+    found = []
+    for k in range(max(0, first), last):
+        path = vertices(job, k)
+        here = [v for v, (x, y) in enumerate(path) if max(abs(x - at[0]), abs(y - at[1])) <= STEP]
+        found += [(k, here)] if here else []
+    return found
 
 
 def rest(job: Job, machine: Machine, limit: int, start: Start) -> Job:
@@ -103,14 +118,14 @@ def rest(job: Job, machine: Machine, limit: int, start: Start) -> Job:
         raise ProgramRefused(
             f"Stroke {stroke + 1} has vertices 0 to {max(0, len(found.path) - 1)}, not {vertex}."
         )
-    before = [_drawn(_traced(job, one).path) for one in start.again]
-    way = _drawn(_from(found.path, vertex, start.overlap * machine.axes.units_per_mm))
-    begun = rechunk(b"".join([*found.settings, *before, way]), limit)
+    behind, ahead = _parted(found.path, vertex, start.overlap * machine.axes.units_per_mm)
+    before = [_drawn(way) for way in _led_in(job, machine, start, behind)]
+    begun = rechunk(b"".join([*found.settings, *before, _drawn(ahead)]), limit)
     after = [part for part in job.parts if part.stroke > stroke]
     timed = ready(begun + b"".join(part.data for part in after), machine)
     strokes = [stroke] * (len(timed.parts) - len(after)) + [part.stroke for part in after]
     parts = [replace(part, stroke=k) for part, k in zip(timed.parts, strokes, strict=True)]
-    return replace(timed, parts=tuple(parts))
+    return replace(timed, parts=tuple(parts), strokes=job.strokes)
 
 
 def _traced(job: Job, stroke: int) -> _Traced:
@@ -142,16 +157,32 @@ def _pairs(flat: Sequence[float]) -> list[XY]:
     return list(zip(flat[::2], flat[1::2], strict=True))
 
 
-def _from(path: list[XY], vertex: int, overlap: float) -> list[XY]:
-    """Return the way from a vertex on, begun ``overlap`` steps earlier where there is so much."""
-    ahead = path[vertex:]
-    while vertex > 0 and overlap > 0:
-        here, before = path[vertex], path[vertex - 1]
+def _led_in(job: Job, machine: Machine, start: Start, behind: list[XY]) -> list[list[XY]]:
+    """Return the ways in the waste that turn a blade as it pointed where the program goes on.
+
+    behind : the way of the stroke that is taken up again, up to there.
+    """
+    ways = [_traced(job, one).path for one in start.again]
+    offset = machine.tools.host_offset * machine.axes.units_per_mm
+    if ways and offset:
+        came = [_traced(job, k).path for k in range(start.again[0], start.stroke)]
+        wanted = blade.heading([*came, behind], offset)
+        turned = blade.swung(ways[-1][-1], blade.heading(ways, offset), wanted, offset)
+        ways[-1] = [*ways[-1], *turned]
+    return ways
+
+
+def _parted(path: list[XY], vertex: int, overlap: float) -> tuple[list[XY], list[XY]]:
+    """Part a way at a vertex, or ``overlap`` steps before it where there is so much behind it."""
+    ahead, behind = path[vertex:], path[: vertex + 1]
+    while len(behind) > 1 and overlap > 0:
+        here, before = behind[-1], behind[-2]
         length = hypot(before[0] - here[0], before[1] - here[1])
         if length > overlap:
-            return [_between(here, before, overlap / length), *ahead]
-        ahead, overlap, vertex = [before, *ahead], overlap - length, vertex - 1
-    return ahead
+            spot = _between(here, before, overlap / length)
+            return [*behind[:-1], spot], [spot, *ahead]
+        ahead, overlap, behind = [before, *ahead], overlap - length, behind[:-1]
+    return behind, ahead
 
 
 def _between(here: XY, there: XY, share: float) -> XY:

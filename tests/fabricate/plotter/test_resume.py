@@ -119,3 +119,15 @@ def test_relative_moves_are_not_gone_on_from() -> None:
     job = ready(b"IN;PA;PU10,10;PD20,20;PR;PU1,1;PD5,5;", MACHINE)
     with pytest.raises(ProgramRefused, match="relative"):
         resume.rest(job, MACHINE, 1000, resume.Start(1))
+
+
+@given(strokes, st.data())
+def test_what_is_left_of_a_program_counts_its_strokes_as_the_whole_does(
+    drawn: list[tuple[tuple[int, int], list[tuple[int, int]], int]], data: st.DataObject
+) -> None:
+    """Else a second interruption would call doubtful strokes certain to be untouched."""
+    job = ready(program(drawn), MACHINE)
+    stroke = data.draw(st.integers(0, job.strokes - 1), label="stroke")
+    left = resume.rest(job, MACHINE, 1000, resume.Start(stroke))
+    assert left.strokes == job.strokes
+    assert max(part.stroke for part in left.parts) == max(part.stroke for part in job.parts)

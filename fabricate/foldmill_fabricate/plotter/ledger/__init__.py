@@ -12,6 +12,7 @@ from foldmill_fabricate.plotter.ledger.ledger import Ledger, ledger_file
 from foldmill_fabricate.plotter.ledger.reading import account
 from foldmill_fabricate.plotter.ledger.run import Run
 from foldmill_fabricate.plotter.ledger.values import (
+    Answered,
     Entry,
     Program,
     Record,
@@ -22,6 +23,7 @@ from foldmill_fabricate.plotter.ledger.values import (
 from foldmill_fabricate.plotter.ledger.words import Said
 
 __all__ = [
+    "Answered",
     "Entry",
     "Ledger",
     "Program",

@@ -5,15 +5,16 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from sqlalchemy import BindParameter, Connection, Update, bindparam, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
-from foldmill_fabricate.plotter.ledger import words
+from foldmill_fabricate.plotter.ledger import reading, words, writing
 from foldmill_fabricate.plotter.ledger.reading import (
     not_ready,
     program_row,
@@ -21,7 +22,14 @@ from foldmill_fabricate.plotter.ledger.reading import (
 )
 from foldmill_fabricate.plotter.ledger.run import Run
 from foldmill_fabricate.plotter.ledger.tables import AUDIT, PROGRAMS, RUNS, SHEETS, connect
-from foldmill_fabricate.plotter.ledger.values import Program, Record, SheetRecord, State, Word
+from foldmill_fabricate.plotter.ledger.values import (
+    Answered,
+    Program,
+    Record,
+    SheetRecord,
+    State,
+    Word,
+)
 from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
 
 _LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
@@ -125,6 +133,18 @@ class Ledger:
         wanted = select(AUDIT.c.when, AUDIT.c.who, AUDIT.c.what).where(AUDIT.c.sheet == sheet)
         with self._engine.begin() as at:
             return [(row[0], row[1], row[2]) for row in at.execute(wanted.order_by(AUDIT.c.id))]
+
+    def answer(
+        self, sheet: str, number: int | None, gate: str, told: Mapping[str, Any], who: str = ""
+    ) -> None:
+        """Keep what a person did and measured at a gate; ``told`` : plain values by name."""
+        with self._engine.begin() as at:
+            writing.answer(at, self._now(), sheet, number, gate, told, who)
+
+    def answers(self, sheet: str) -> list[Answered]:
+        """Return what was done and measured at the gates of a sheet, the oldest first."""
+        with self._engine.begin() as at:
+            return reading.answers(at, sheet)
 
     def claim(self, sheet: str, number: int, device: str) -> Run:
         """Take a ready program's token.

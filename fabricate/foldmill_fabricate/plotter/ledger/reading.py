@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from sqlalchemy import Connection, Row, select
 
 from foldmill_fabricate.plotter.errors import LedgerRefused
-from foldmill_fabricate.plotter.ledger.tables import PROGRAMS, RUNS
-from foldmill_fabricate.plotter.ledger.values import Entry, Program, Record, SheetRecord, State
+from foldmill_fabricate.plotter.ledger.tables import ANSWERS, PROGRAMS, RUNS
+from foldmill_fabricate.plotter.ledger.values import (
+    Answered,
+    Entry,
+    Program,
+    Record,
+    SheetRecord,
+    State,
+)
 
 
 def at_program(sheet: str, number: int) -> Any:
@@ -39,6 +47,12 @@ def _record(at: Connection, row: Row[Any]) -> Record:
     runs = tuple(Entry(r.token, r.first, r.vertex, r.sent, r.acked, r.cut_to) for r in found)
     way = (row.first, row.vertex, row.overlap, row.note)
     return Record(row.sheet, row.number, program, State(row.state), *way, runs)
+
+
+def answers(at: Connection, sheet: str) -> list[Answered]:
+    """Return what was answered at a sheet's gates, the oldest first."""
+    rows = at.execute(select(ANSWERS).where(ANSWERS.c.sheet == sheet).order_by(ANSWERS.c.id))
+    return [Answered(r.when, r.number, r.who, r.gate, json.loads(r.told)) for r in rows.all()]
 
 
 def account(record: Record) -> str:

@@ -71,6 +71,17 @@ AUDIT = Table(
     Column("who", Text, nullable=False),
     Column("what", Text, nullable=False),
 )
+ANSWERS = Table(
+    "answers",
+    METADATA,
+    Column("id", Integer, primary_key=True, autoincrement=True),
+    Column("when", String(32), nullable=False),
+    Column("sheet", ForeignKey("sheets.id"), nullable=False, index=True),
+    Column("number", Integer),
+    Column("who", Text, nullable=False),
+    Column("gate", String(32), nullable=False),
+    Column("told", Text, nullable=False),
+)
 
 
 def connect(place: Path | str) -> Engine:

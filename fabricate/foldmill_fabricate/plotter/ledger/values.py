@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 Span = tuple[int, int]
 """Strokes from the first to before the second."""
@@ -86,6 +87,21 @@ class Entry:
         if self.cut_to is not None:
             return self.sent, self.sent
         return self.acked, max(self.acked, self.sent)
+
+
+@dataclass(frozen=True)
+class Answered:
+    """What a person did and measured at a gate."""
+
+    when: str
+    """UTC, ISO 8601."""
+    number: int | None
+    """Program before which it was; None for the whole sheet."""
+    who: str
+    gate: str
+    """Such as load, flip, re-register, test-cut."""
+    told: Mapping[str, Any]
+    """By name, such as thickness (mm), temperature (°C), marks (pairs of mm)."""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,85 @@
+"""Which sheet is worked on: a new one, or one that was begun and lies beside others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from foldmill_fabricate.passes import Face, ProgramFile
+from foldmill_fabricate.plotter.errors import LedgerRefused
+from foldmill_fabricate.plotter.ledger import Ledger, Program, SheetRecord, State
+from foldmill_fabricate.plotter.program import ready
+from foldmill_fabricate.plotter.sender import as_sent
+from foldmill_fabricate.sending import Job
+
+NEW = "new"
+"""In place of a sheet's id: begin another one."""
+
+
+def choose_sheet(ledger: Ledger, job: Job, faces: Sequence[Face], sheet: str) -> SheetRecord:
+    """Return the sheet to work on; raises LedgerRefused where that is not certain."""
+    if sheet and sheet.lower() != NEW:
+        return _named(ledger, job, sheet)
+    if not sheet:
+        begun = ledger.open_sheets(job.id)
+        waiting = [one for one in begun if _waits_for(one, faces)]
+        if len(begun) == len(waiting) == 1:
+            return waiting[0]
+        if begun:
+            told = " ".join(f"Sheet {one.id}: {_told(one)}." for one in begun)
+            raise LedgerRefused(
+                f"This job is begun already. {told} Name the sheet that lies on the machine, "
+                f"such as --sheet {begun[0].id}, or begin another with --sheet new."
+            )
+        _refuse_planned_again(ledger, job)
+    return ledger.lay(
+        job.id,
+        [_program(job, part) for part in job.plan.programs],
+        title=job.plan.title,
+        machine=job.plan.machine.slug,
+        material=job.plan.material.slug,
+    )
+
+
+def _named(ledger: Ledger, job: Job, sheet: str) -> SheetRecord:
+    found = ledger.sheet(sheet)
+    if found.job != job.id:
+        raise LedgerRefused(
+            f"Sheet {found.id} is one of {found.title or 'another job'}, planned otherwise: its "
+            "programs are not these: name the folder it was begun from; if that was planned again, "
+            "plan it as it was before, or give the sheet up with foldmill sheets "
+            f"{found.id} --spoiled."
+        )
+    return found
+
+
+def _refuse_planned_again(ledger: Ledger, job: Job) -> None:
+    """Refuse where a sheet of the same name lies half done that another plan was begun on."""
+    plan = job.plan
+    same = (plan.title, plan.machine.slug, plan.material.slug)
+    left = [one for one in ledger.open_sheets() if (one.title, one.machine, one.material) == same]
+    if left:
+        told = " ".join(f"Sheet {one.id}: {_told(one)}." for one in left)
+        raise LedgerRefused(
+            f"{plan.title or 'This job'} was planned again since a sheet of it was begun. {told} "
+            "The new programs do not go on on that sheet: plan as before to finish it, or give it "
+            f"up with foldmill sheets {left[0].id} --spoiled; or send with --sheet new for another."
+        )
+
+
+def _waits_for(sheet: SheetRecord, faces: Sequence[Face]) -> bool:
+    """Tell whether all that is asked for is still to be begun, and nothing else is in doubt."""
+    asked = [record for record in sheet.records if record.program.face in faces]
+    settled = {State.READY, State.DONE}
+    return all(record.state is State.READY for record in asked) and all(
+        record.state in settled for record in sheet.records
+    )
+
+
+def _told(sheet: SheetRecord) -> str:
+    return ", ".join(f"{record.program.name} {record.state.value}" for record in sheet.records)
+
+
+def _program(job: Job, part: ProgramFile) -> Program:
+    machine = job.plan.machine
+    strokes = ready(as_sent(job.programs[part.name], machine), machine).strokes
+    return Program(part.name, part.face, part.sha256, strokes)

@@ -1,0 +1,40 @@
+"""A test cut made ready: planned in the waste of a job's own sheet, written, and proved."""
+
+from __future__ import annotations
+
+import hashlib
+
+from foldmill.finding import Severity
+from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.passes import Face, Plan, ProgramFile, SetUp
+from foldmill_fabricate.plan.trial import trial
+from foldmill_fabricate.sending import Job
+from foldmill_fabricate.verify.trial import prove_trial
+
+
+def first_of_its_process(plan: Plan, setup: SetUp) -> bool:
+    """Tell whether no set-up before this one goes the same way about it."""
+    every = [one for work in plan.passes for one in work.setups]
+    return next(one for one in every if one.process == setup.process).number == setup.number
+
+
+def trial_program(job: Job, face: Face, setup: SetUp, attempt: int = 0) -> bytes:
+    """Return the program of a test cut for a set-up, proved.
+
+    attempt : 0, 1, 2 …, for a sheet in which some are cut already. Raises CannotPlan where the
+    waste has no room, CannotSend where the program does not verify.
+    """
+    plan = trial(job.plan, job.pattern, face, setup, attempt)
+    (own,) = plan.passes[0].setups
+    fit = job.fit.fit if job.fit else None
+    data = hpgl.program(plan, [own.number], fit)
+    name = f"{own.name}.hpgl"
+    digest = hashlib.sha256(data).hexdigest()
+    file = ProgramFile(name=name, face=face, setups=(own.number,), sha256=digest)
+    recorded = plan.model_copy(update={"programs": (file,)})
+    findings = prove_trial(recorded, job.plan, job.pattern, name, data, fit)
+    errors = [each for each in findings if each.severity is Severity.ERROR]
+    if errors:
+        raise CannotSend(f"The test cut is not sent, for it does not verify: {errors[0]}")
+    return data

@@ -1,0 +1,83 @@
+"""frame, jog and register, from the shell."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from command import Run
+from fabricate.bench import Bench, small_job, small_plan
+
+from foldmill import FoldmillError
+from foldmill_fabricate.cli.leading import read_step
+from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.jogging import expected_marks
+from foldmill_fabricate.passes import Face
+from foldmill_fabricate.plotter.ledger import Ledger
+from foldmill_fabricate.sheet import turned
+
+SIM = "sim://generic-hpgl-600"
+
+
+def test_a_frame_is_traced_and_told(foldmill: Run) -> None:
+    small_job(Path("job"))
+    told = foldmill("frame", "job", "--port", SIM, "--pass", "reverse")
+    assert told.code == 0, told.err
+    assert re.search(r"Traced \(\d+\.\d+, \d+\.\d+\) to .* the tool up", told.out)
+
+
+def test_a_step_is_made_within_the_limits_only(foldmill: Run) -> None:
+    words = ("--port", "sim://jog?machine=generic-hpgl-600", "--machine", "generic-hpgl-600")
+    assert "(30.00, 20.00) mm" in foldmill("jog", "30", "20", *words).out
+    assert "(25.00, 20.50) mm" in foldmill("jog", "-5", "0.5", *words).out
+    told = foldmill("jog", "-20", "0", *words)
+    assert told.code == 2
+    assert "5.00 mm beyond what generic-hpgl-600 reaches" in told.err
+
+
+def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(
+    foldmill: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """The sheet lies turned by 0.2° and shifted; the operator leads the tool above each hole."""
+    job, ledger = small_job(Path("job")), Ledger(tmp_path / "ledger.sqlite")
+    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url: ledger)
+    bench = Bench(small_plan())
+    *_, front = send_job(job, bench.url, bench.hands, (Face.FRONT,), ledger=ledger)
+    wanted = expected_marks(job.plan)
+    seen = [(x + 1.2, y - 0.8) for x, y in turned(wanted, 0.2).tolist()]
+    typed: list[str] = []
+    for (x, y), (u, v) in zip(wanted, seen, strict=True):
+        typed += [f"{u - x:.4f},0", f"w {v - y:.4f}", ""]
+    monkeypatch.setattr("typer.prompt", lambda *_, **__: typed.pop(0))
+    told = foldmill("register", "job", "--port", bench.url)
+    assert told.code == 0, told.err
+    assert "angle +0.200°" in told.out
+    assert f"kept for sheet {front.sheet}" in told.out
+    list(send_job(job, bench.url, bench.hands, (Face.REVERSE,), ledger=ledger))
+    by_marks = job.fitted(seen)
+    plain = Bench(small_plan())
+    list(send_job(by_marks, plain.url, plain.hands))
+    cut, asked = (each.simulator.sheet.strokes[Face.REVERSE] for each in (bench, plain))
+    for one, other in zip(cut, asked, strict=True):
+        far = max(
+            abs(a - b)
+            for p, q in zip(one.points, other.points, strict=True)
+            for a, b in zip(p, q, strict=True)
+        )
+        assert far <= 1
+    for each in (bench, plain):
+        each.leave()
+
+
+def test_keys_and_numbers_are_steps() -> None:
+    assert [read_step(text) for text in ("d", "a 0.5", "w10", "S 2", "1,-2.5")] == [
+        (1.0, 0.0),
+        (-0.5, 0.0),
+        (0.0, 10.0),
+        (0.0, -2.0),
+        (1.0, -2.5),
+    ]
+    for wrong in ("x", "1", "d far", "1,2,3"):
+        with pytest.raises(FoldmillError, match="Write dx,dy in mm"):
+            read_step(wrong)
