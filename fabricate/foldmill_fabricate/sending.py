@@ -12,10 +12,10 @@ from pathlib import Path
 
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.marks import MarkFit, check_witness, fit_marks
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
+from foldmill_fabricate.writers import writer
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def open_job(
     proof = verify_files(files)
     _refuse(proof, path)
     if not plan.programs:
-        raise CannotSend(f"{path} holds drawings only; plan it again with --to hpgl.")
+        raise CannotSend(f"{path} holds drawings only; plan it again without --to.")
     unproved = [part.name for part in plan.programs if part.name not in files.programs]
     if unproved:
         raise CannotSend(f"{path} is not sent, for {unproved[0]} was not verified.")
@@ -58,8 +58,14 @@ def open_job(
     if not marks:
         return Job(plan, programs, proof, None)
     fit = fit_marks(plan, marks)
+    format_ = writer(plan.machine)
+    if format_ is None or format_.program is None:
+        raise CannotSend(
+            f"{path} cannot be fitted to marks: nothing installed writes programs in "
+            f"{plan.machine.language} anew. Find the sheet by its edges."
+        )
     programs |= {
-        part.name: hpgl.program(plan, part.setups, fit.fit)
+        part.name: format_.program(plan, part.setups, fit.fit)
         for part in plan.programs
         if part.face is Face.REVERSE
     }

@@ -128,7 +128,7 @@ def plan(
     ] = None,
     to: Annotated[
         str | None,
-        typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
+        typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
     ] = None,
     planarise: Planarise = False,
     as_json: AsJson = False,
@@ -168,7 +168,9 @@ def plan(
 def formats_for(to: str | None, machine: Machine) -> list[str]:
     """Return the formats asked for, by default what the machine can use."""
     if to is None:
-        return ["svg", "dxf", "hpgl"] if machine.language == "hpgl" else ["svg", "dxf"]
+        from foldmill_fabricate.writers import writer
+
+        return ["svg", "dxf", *([machine.language] if writer(machine) else [])]
     formats = [name.strip() for name in to.split(",") if name.strip()]
     if not formats:
         raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")
