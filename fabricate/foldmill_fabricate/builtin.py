@@ -37,8 +37,8 @@ def foldmill_formats() -> Iterable[Format]:
     """Offer the drawings and programs of ``foldmill_fabricate.formats``."""
     of_each = "programs of each set-up or face"
     return [
-        Format("svg", "SVG drawing of each face and of both", svg.write),
-        Format("dxf", "DXF drawing of each face and of both", dxf.write),
+        Format("svg", "SVG drawing of each face and of both", svg.write, drawn=svg.write),
+        Format("dxf", "DXF drawing of each face and of both", dxf.write, drawn=dxf.write),
         Format("hpgl", f"HP-GL {of_each}", hpgl.write, programs.layout, hpgl.program),
         Format("gp-gl", f"GP-GL {of_each}", gpgl.write, programs.layout, gpgl.program),
         Format("gcode", f"G-code {of_each}", gcode.write, programs.layout, gcode.program),

@@ -16,6 +16,7 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Fit, Plan
 
 if TYPE_CHECKING:
+    from foldmill_fabricate.formats.drawing import Style
     from foldmill_fabricate.verify.interpreter import Trace
 
 FORMATS = "foldmill_formats"
@@ -36,6 +37,8 @@ class Format:
     None for drawings. Such a format is named like the ``language`` of the machine's profile."""
     program: Callable[[Plan, Sequence[int], Fit | None], bytes] | None = None
     """Writes the program of some set-ups anew, fitted to how the flipped sheet really lies."""
+    drawn: Callable[[Plan, Fold, Style], Mapping[str, bytes]] | None = None
+    """Writes as ``write`` does, in a style that was asked for; None where there is none to ask."""
 
 
 @dataclass(frozen=True)
