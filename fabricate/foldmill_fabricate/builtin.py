@@ -7,7 +7,7 @@ from types import ModuleType
 
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
-from foldmill_fabricate.formats import dxf, gcode, gpgl, hpgl, places, programs, svg
+from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, places, programs, svg
 from foldmill_fabricate.hooks import Format, Interpreter
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -42,6 +42,7 @@ def foldmill_formats() -> Iterable[Format]:
         Format("hpgl", f"HP-GL {of_each}", hpgl.write, programs.layout, hpgl.program),
         Format("gp-gl", f"GP-GL {of_each}", gpgl.write, programs.layout, gpgl.program),
         Format("gcode", f"G-code {of_each}", gcode.write, programs.layout, gcode.program),
+        Format("cf2", "CFF2 drawing of each face, for makers of dies", cf2.write, drawn=cf2.write),
         Format("places", "PNG with the places of what planning found", places.write),
     ]
 

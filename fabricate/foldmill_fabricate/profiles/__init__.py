@@ -38,10 +38,12 @@ class Layer(Preset):
     """#rrggbb of its lines in SVG."""
     pen: int = Field(ge=1, le=99)
     """Pen number where the machine selects no tools; ascending in order of work."""
+    cf2: int = Field(1, ge=0, le=99)
+    """Type of its lines in CFF2: 1 cut, 2 crease, 3 perforation."""
 
 
-def _layer(name: str, aci: int, colour: str, pen: int) -> Layer:
-    return Layer(name=name, aci=aci, colour=colour, pen=pen)
+def _layer(name: str, aci: int, colour: str, pen: int, cf2: int = 1) -> Layer:
+    return Layer(name=name, aci=aci, colour=colour, pen=pen, cf2=cf2)
 
 
 class Layers(Preset):
@@ -49,15 +51,15 @@ class Layers(Preset):
 
     holes: Layer = _layer("REG", 10, "#00e000", 1)
     """Registration holes and marks, cut first."""
-    score_front: Layer = _layer("SCORE_FRONT", 4, "#0000ff", 2)
+    score_front: Layer = _layer("SCORE_FRONT", 4, "#0000ff", 2, 2)
     """Half-cuts and grooves on the front."""
-    score_back: Layer = _layer("SCORE_BACK", 9, "#ff8000", 2)
+    score_back: Layer = _layer("SCORE_BACK", 9, "#ff8000", 2, 2)
     """Half-cuts and grooves on the reverse."""
-    crease_front: Layer = _layer("CREASE_FRONT", 2, "#0000ff", 2)
+    crease_front: Layer = _layer("CREASE_FRONT", 2, "#0000ff", 2, 2)
     """Lines pressed by a wheel or stylus, or drawn, on the front."""
-    crease_back: Layer = _layer("CREASE_BACK", 8, "#ff8000", 2)
+    crease_back: Layer = _layer("CREASE_BACK", 8, "#ff8000", 2, 2)
     """Lines pressed by a wheel or stylus, or drawn, on the reverse."""
-    perforation: Layer = _layer("PERF", 3, "#00e0e0", 3)
+    perforation: Layer = _layer("PERF", 3, "#00e0e0", 3, 3)
     """Creases cut through in dashes, each dash a line of its own."""
     cut_inner: Layer = _layer("CUT_INNER", 1, "#d0d000", 4)
     """Relief holes, slots and slits; cut before the outline."""
