@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +35,8 @@ _PLACES = 5
 def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
     """Return ``front.cf2`` and ``reverse.cf2``; style : the profile with the types of lines."""
     profile = style.profile if style else find()
-    views = d.drawings(plan, profile)
-    return {f"{view.name}.cf2": _cf2(plan, view) for view in views if view.name != "master"}
+    views = islice(d.drawings(plan, profile), len(plan.passes))  # the faces, not the master
+    return {f"{view.name}.cf2": _cf2(plan, view) for view in views}
 
 
 def _cf2(plan: Plan, view: d.Drawing) -> bytes:
@@ -53,7 +54,7 @@ def _group(plan: Plan, view: d.Drawing, group: d.Group) -> Iterator[str]:
         others = [line for line in lines if len(line) != 2]
         lines = rows([line for line in lines if len(line) == 2], _ONE_ROW * score.gap) + others
     begin = f"L,{WEIGHT},{group.layer.cf2},0,"
-    for x, y, u, v in segments(lines).tolist():
+    for x, y, u, v in zip(*segments(lines).T.tolist(), strict=True):
         yield f"{begin}{number(x)},{number(y)},{number(u)},{number(v)},0,0"
 
 

@@ -32,10 +32,11 @@ def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, 
     """
     chosen = style or d.Style(find())
     views = d.drawings(plan, chosen.profile)
-    return {f"{view.name}.dxf": _dxf(view, chosen.dxf) for view in views}
+    return {f"{view.name}.dxf": one(view, chosen.dxf) for view in views}
 
 
-def _dxf(view: d.Drawing, version: Version) -> bytes:
+def one(view: d.Drawing, version: Version = "R2000") -> bytes:
+    """Return one drawing as a DXF file."""
     from ezdxf.filemanagement import new
 
     with _without_clock():

@@ -66,7 +66,8 @@ def _places(steps: programs.Steps, units_per_mm: float) -> list[str]:
     """Return the X and Y words of steps (n, 2), with digits enough to hit each of them."""
     decimals = max(3, ceil(log10(units_per_mm)) + 2)
     words = {step: number(step / units_per_mm, decimals) for step in set(steps.ravel().tolist())}
-    return [f"X{words[x]}Y{words[y]}" for x, y in steps.tolist()]
+    x, y = steps.T.tolist()  # by columns: a list for each point would be garbage to collect
+    return [f"X{words[a]}Y{words[b]}" for a, b in zip(x, y, strict=True)]
 
 
 def _on(plan: Plan, setup: SetUp) -> str:

@@ -52,7 +52,7 @@ def _setup(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Iterator[st
     yield heavy
     yield f"FC{offset(plan, setup)}"
     ways = programs.ways(plan, face, setup, fit)
-    pairs = ["%d,%d" % (x, y) for x, y in ways.steps.tolist()]  # noqa: UP031 - twice as fast
+    pairs = ways.pairs()
     was_light = False
     for begin, end, light in ways:
         yield f"M{pairs[begin]}"  # with the tool up a new force harms nothing

@@ -65,7 +65,7 @@ def _setup(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Iterator[st
         yield f"SP{setup.tool};"
     yield from _speed_and_force(setup, dialect)
     ways = programs.ways(plan, face, setup, fit)
-    pairs = ["%d,%d" % (x, y) for x, y in ways.steps.tolist()]  # noqa: UP031 - twice as fast
+    pairs = ways.pairs()
     up = "PU;" + dialect.line_end + "PA%s;" if dialect.lifts_apart else "PU%s;"
     limit = dialect.max_instruction - len(dialect.line_end)
     was_light = False

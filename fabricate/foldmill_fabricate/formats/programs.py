@@ -42,6 +42,12 @@ class Ways(NamedTuple):
     light: list[bool]
     """(k) whether the blade only rests on the sheet, to be turned."""
 
+    def pairs(self) -> list[str]:
+        """Return every point as two numbers with a comma between them."""
+        # by columns: a list for each point would keep the garbage collector busy
+        x, y = self.steps.T.tolist()
+        return [f"{a},{b}" for a, b in zip(x, y, strict=True)]
+
     def __iter__(self) -> Iterator[tuple[int, int, bool]]:  # type: ignore[override]
         """Yield of each way where it begins, where it ends and whether it is light."""
         return zip(self.ends[:-1], self.ends[1:], self.light, strict=True)

@@ -32,7 +32,7 @@ def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, 
     """
     profile = style.profile if style else find()
     views = list(d.drawings(plan, profile))
-    drawn = {f"{view.name}.svg": _svg(plan, view) for view in views}
+    drawn = {f"{view.name}.svg": one(plan, view) for view in views}
     return {**drawn, "legend.svg": _legend(plan, profile, views[-1])}
 
 
@@ -75,7 +75,8 @@ def to_bytes(drawing: svgwrite.Drawing, paths: Mapping[str, list[str]] | None = 
     return text.encode("utf-8")
 
 
-def _svg(plan: Plan, view: d.Drawing) -> bytes:
+def one(plan: Plan, view: d.Drawing) -> bytes:
+    """Return one drawing as an SVG file; of the plan only what its machine is told."""
     from svgwrite.extensions import Inkscape
 
     svg = canvas(view.width, view.height)
