@@ -43,7 +43,7 @@ from foldmill_fabricate.passes import (
     Sheet,
     Stroke,
 )
-from foldmill_fabricate.profiles import find
+from foldmill_fabricate.profiles import Style, find
 
 Write = Callable[[], bytes]
 RUNS = 5
@@ -217,7 +217,7 @@ def pairs(fold: Fold) -> dict[str, tuple[Write, Write, bool]]:
     """Return per format ours, the other, and whether both write the same bytes."""
     plans = {slug: planned(fold, slug) for slug in set(MACHINES.values())}
     of = {name: plans[slug] for name, slug in MACHINES.items()}
-    front = d.Style(find())
+    front = Style(find())
     content = json.loads(fold_file.write(fold))
     return {
         "hpgl": (lambda: hpgl.program(of["hpgl"], (1,)), lambda: plain_hpgl(of["hpgl"]), True),

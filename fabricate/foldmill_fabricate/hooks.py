@@ -16,7 +16,7 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Fit, Plan
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.formats.drawing import Style
+    from foldmill_fabricate.profiles import Style
     from foldmill_fabricate.verify.interpreter import Trace
 
 FORMATS = "foldmill_formats"

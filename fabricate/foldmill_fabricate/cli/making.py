@@ -148,8 +148,8 @@ def plan(
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
     from foldmill_fabricate import folder, profiles
-    from foldmill_fabricate.formats.drawing import Style
     from foldmill_fabricate.plan import make
+    from foldmill_fabricate.profiles import Style
 
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)

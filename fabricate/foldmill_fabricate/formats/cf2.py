@@ -20,7 +20,7 @@ from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.formats.svg import number
 from foldmill_fabricate.materials.processes import Perforation
 from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.profiles import find
+from foldmill_fabricate.profiles import Style, find
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ _PLACES = 5
 """Decimals of direction and distance to which dashes lie on one line."""
 
 
-def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
+def write(plan: Plan, fold: Fold, style: Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
     """Return ``front.cf2`` and ``reverse.cf2``; style : the profile with the types of lines."""
     profile = style.profile if style else find()
     views = islice(d.drawings(plan, profile), len(plan.passes))  # the faces, not the master

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,14 +36,6 @@ _CUTS = {
     Role.CUT_OUTER: "cut_outer",
 }
 _PRESSED = frozenset({"crease-wheel", "stylus", "pen"})
-
-
-@dataclass(frozen=True)
-class Style:
-    """What a person may choose of a drawing."""
-
-    profile: Profile
-    dxf: Literal["R2000", "R12"] = "R2000"
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 from foldmill import Fold
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.profiles import Layer, find
+from foldmill_fabricate.profiles import Layer, Style, find
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -24,13 +24,13 @@ UNITS = {"R2000": 4, "R12": 0}
 """The value of $INSUNITS: mm, or none where the header has no such variable."""
 
 
-def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
+def write(plan: Plan, fold: Fold, style: Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
     """Return ``front.dxf``, ``reverse.dxf`` (as the machine sees it) and ``master.dxf``.
 
     style : names and colours of layers, and the version; R12 has no unit in its header and knows no
     LWPOLYLINE, for old software only.
     """
-    chosen = style or d.Style(find())
+    chosen = style or Style(find())
     views = d.drawings(plan, chosen.profile)
     return {f"{view.name}.dxf": one(view, chosen.dxf) for view in views}
 

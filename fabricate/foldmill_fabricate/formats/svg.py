@@ -13,7 +13,7 @@ from foldmill import Fold
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.profiles import Profile, find, legend
+from foldmill_fabricate.profiles import Profile, Style, find, legend
 
 if TYPE_CHECKING:
     import svgwrite
@@ -24,7 +24,7 @@ DECIMALS = 4
 """Of a mm: a 250th of a plotter step."""
 
 
-def write(plan: Plan, fold: Fold, style: d.Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
+def write(plan: Plan, fold: Fold, style: Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
     """Return ``front.svg``, ``reverse.svg`` (as the machine sees it) and ``master.svg``.
 
     With them goes ``legend.svg``: what their layers are called, and what each is for.

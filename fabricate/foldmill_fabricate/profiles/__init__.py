@@ -9,9 +9,10 @@ presets, or anywhere.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -79,6 +80,14 @@ class Profile(Sourced):
     provenance: str
     """Where the names and colours come from."""
     layers: Layers = Field(default_factory=lambda: Layers.model_validate({}))
+
+
+@dataclass(frozen=True)
+class Style:
+    """What a person may choose of a drawing."""
+
+    profile: Profile
+    dxf: Literal["R2000", "R12"] = "R2000"
 
 
 class LegendRow(NamedTuple):

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 from foldmill import Assignment
 from foldmill_fabricate.formats import cf2
-from foldmill_fabricate.formats.drawing import Style, drawings
+from foldmill_fabricate.formats.drawing import drawings
 from foldmill_fabricate.plan import make
-from foldmill_fabricate.profiles import Profile, find
+from foldmill_fabricate.profiles import Profile, Style, find
 from foldmill_fabricate.sheet import placed
 
 if TYPE_CHECKING:

@@ -23,9 +23,9 @@ from ezdxf.filemanagement import readfile
 from foldmill import installed
 from foldmill_fabricate import hooks
 from foldmill_fabricate.formats import dxf, svg
-from foldmill_fabricate.formats.drawing import Style, drawings
+from foldmill_fabricate.formats.drawing import drawings
 from foldmill_fabricate.passes import Face
-from foldmill_fabricate.profiles import find
+from foldmill_fabricate.profiles import Style, find
 
 if TYPE_CHECKING:
     from conftest import Golden

@@ -17,9 +17,10 @@ from foldmill.errors import UnknownName, UnreadableFile
 from foldmill_fabricate import profiles
 from foldmill_fabricate.cli.app import app
 from foldmill_fabricate.formats import dxf, svg
-from foldmill_fabricate.formats.drawing import Style, layer_of
+from foldmill_fabricate.formats.drawing import layer_of
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import Face, Role
+from foldmill_fabricate.profiles import Style
 
 PLAN, FOLD = hand_made.plan(), hand_made.fold()
 TABLE = {

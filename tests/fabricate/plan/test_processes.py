@@ -306,9 +306,9 @@ def test_a_pen_plotter_draws_a_small_sheet_of_paper() -> None:
     assert result.figures.tolerance == pytest.approx(25.4 / 1021)
 
 
-def test_a_machine_that_speaks_another_language_gets_no_programs() -> None:
+def test_a_machine_gets_no_programs_in_another_language() -> None:
     plan = make(Fold(fan("MVMV", 10.0)), stools.material(), shelf.machine("silhouette-like"))
-    with pytest.raises(CannotPlan, match="speaks gp-gl, and programs in that language cannot be"):
+    with pytest.raises(CannotPlan, match="speaks gp-gl, so a program in hpgl is nothing to it"):
         hpgl.write(plan, Fold(fan("MVMV", 10.0)))
 
 
