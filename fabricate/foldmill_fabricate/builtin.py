@@ -7,7 +7,7 @@ from types import ModuleType
 
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
-from foldmill_fabricate.formats import dxf, hpgl, places, svg
+from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, places, programs, svg
 from foldmill_fabricate.hooks import Format, Interpreter
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -35,10 +35,14 @@ def foldmill_machines() -> Iterable[Machine]:
 @hookimpl
 def foldmill_formats() -> Iterable[Format]:
     """Offer the drawings and programs of ``foldmill_fabricate.formats``."""
+    of_each = "programs of each set-up or face"
     return [
-        Format("svg", "SVG drawing of each face and of both", svg.write),
-        Format("dxf", "DXF drawing of each face and of both", dxf.write),
-        Format("hpgl", "HP-GL programs of each set-up or face", hpgl.write, hpgl.layout),
+        Format("svg", "SVG drawing of each face and of both", svg.write, drawn=svg.write),
+        Format("dxf", "DXF drawing of each face and of both", dxf.write, drawn=dxf.write),
+        Format("hpgl", f"HP-GL {of_each}", hpgl.write, programs.layout, hpgl.program),
+        Format("gp-gl", f"GP-GL {of_each}", gpgl.write, programs.layout, gpgl.program),
+        Format("gcode", f"G-code {of_each}", gcode.write, programs.layout, gcode.program),
+        Format("cf2", "CFF2 drawing of each face, for makers of dies", cf2.write, drawn=cf2.write),
         Format("places", "PNG with the places of what planning found", places.write),
     ]
 
@@ -46,4 +50,8 @@ def foldmill_formats() -> Iterable[Format]:
 @hookimpl
 def foldmill_interpreters() -> Iterable[Interpreter]:
     """Offer the languages of programs that ``foldmill_fabricate.verify`` reads."""
-    return [Interpreter("hpgl", "HP-GL", languages.hpgl)]
+    return [
+        Interpreter("hpgl", "HP-GL", languages.hpgl),
+        Interpreter("gp-gl", "GP-GL", languages.gpgl),
+        Interpreter("gcode", "G-code of GRBL", languages.gcode),
+    ]

@@ -20,23 +20,27 @@ from foldmill_fabricate.coupon.answers import template
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.hooks import FORMATS
 from foldmill_fabricate.passes import Plan, ProgramFile
+from foldmill_fabricate.profiles import Style
 
 PLAN = "plan.json"
 PATTERN = "pattern.fold"
 JOB_SHEET = "job-sheet.pdf"
 
 
-def write(fold: Fold, plan: Plan, folder: Path, formats: Sequence[str]) -> Plan:
+def write(
+    fold: Fold, plan: Plan, folder: Path, formats: Sequence[str], style: Style | None = None
+) -> Plan:
     """Write everything one job needs into a folder; return the plan with its programs named.
 
-    Raises UnknownName for a format nobody offers. What an earlier plan left in the same folder is
-    removed: a stale file must not reach a machine or mislead a person.
+    style : of the drawings. Raises UnknownName for a format nobody offers. What an earlier plan
+    left in the same folder is removed: a stale file must not reach a machine or mislead a person.
     """
     contents: dict[str, bytes] = {PATTERN: fold_file.write(fold).encode()}
     programs: list[ProgramFile] = []
     for slug in formats:
         offered = installed().get(FORMATS, "format", slug)
-        files = offered.write(plan, fold)
+        styled = style is not None and offered.drawn is not None
+        files = offered.drawn(plan, fold, style) if styled else offered.write(plan, fold)
         contents.update(files)
         for name, face, setups in offered.layout(plan) if offered.layout else ():
             digest = hashlib.sha256(files[name]).hexdigest()

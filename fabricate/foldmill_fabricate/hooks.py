@@ -13,9 +13,10 @@ from foldmill import Fold
 from foldmill.hooks import hookspec
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Face, Plan
+from foldmill_fabricate.passes import Face, Fit, Plan
 
 if TYPE_CHECKING:
+    from foldmill_fabricate.profiles import Style
     from foldmill_fabricate.verify.interpreter import Trace
 
 FORMATS = "foldmill_formats"
@@ -33,7 +34,11 @@ class Format:
     write: Callable[[Plan, Fold], Mapping[str, bytes]]
     layout: Callable[[Plan], Sequence[tuple[str, Face, tuple[int, ...]]]] | None = None
     """Which of its files drive a machine: name, face and numbers of the set-ups, in order of work;
-    None for drawings."""
+    None for drawings. Such a format is named like the ``language`` of the machine's profile."""
+    program: Callable[[Plan, Sequence[int], Fit | None], bytes] | None = None
+    """Writes the program of some set-ups anew, fitted to how the flipped sheet really lies."""
+    drawn: Callable[[Plan, Fold, Style], Mapping[str, bytes]] | None = None
+    """Writes as ``write`` does, in a style that was asked for; None where there is none to ask."""
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from pathlib import Path
 from foldmill import CreasePattern
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.marks import MarkFit, check_witness, fit_marks
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
+from foldmill_fabricate.writers import writer
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +44,14 @@ class Job:
         the programs do not verify.
         """
         fit = fit_marks(self.plan, marks)
+        format_ = writer(self.plan.machine)
+        if format_ is None or format_.program is None:
+            raise CannotSend(
+                f"{self.path} cannot be fitted to marks: nothing installed writes programs in "
+                f"{self.plan.machine.language} anew. Find the sheet by its edges."
+            )
         programs = {**self.programs} | {
-            part.name: hpgl.program(self.plan, part.setups, fit.fit)
+            part.name: format_.program(self.plan, part.setups, fit.fit)
             for part in self.plan.programs
             if part.face is Face.REVERSE
         }
@@ -70,7 +76,7 @@ def open_job(
     proof = verify_files(files)
     _refuse(proof, path)
     if not plan.programs:
-        raise CannotSend(f"{path} holds drawings only; plan it again with --to hpgl.")
+        raise CannotSend(f"{path} holds drawings only; plan it again without --to.")
     unproved = [part.name for part in plan.programs if part.name not in files.programs]
     if unproved:
         raise CannotSend(f"{path} is not sent, for {unproved[0]} was not verified.")

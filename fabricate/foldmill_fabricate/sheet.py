@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foldmill_fabricate.machines import Axes
+from foldmill_fabricate.machines import Axes, Machine
 from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
 
 Floats = NDArray[np.float64]
@@ -56,10 +56,21 @@ def laid_off(points: ArrayLike, plan: Plan) -> Floats:
     return moved
 
 
+def seated(machine: Machine, sheet: Sheet) -> Machine:
+    """Return a machine that counts y from the upper edge of this sheet's carrier, if it does so."""
+    if machine.axes.top is None:
+        return machine
+    axes = machine.axes.model_copy(update={"top": sheet.carrier_height})
+    return machine.model_copy(update={"axes": axes})
+
+
 def in_steps(points: ArrayLike, axes: Axes) -> Floats:
     """Turn carrier coordinates (n, 2) mm into machine steps (n, 2), calibrated and not rounded."""
     x, y = np.asarray(points, float).T
-    xy = np.column_stack([axes.scale_x * (x + y * np.tan(np.radians(axes.skew))), axes.scale_y * y])
+    up = y if axes.top is None else axes.top - y
+    xy = np.column_stack(
+        [axes.scale_x * (x + y * np.tan(np.radians(axes.skew))), axes.scale_y * up]
+    )
     found: Floats = (xy[:, ::-1] if axes.swap else xy) * axes.units_per_mm
     return found
 

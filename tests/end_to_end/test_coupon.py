@@ -66,7 +66,7 @@ def verified(plan: Plan, fold: Fold) -> Job:
     complete = plan.model_copy(update={"programs": tuple(named)})
     proof = verify(complete, fold.pattern, programs)
     assert proof.ok, proof.findings
-    return Job(complete, programs, proof, None)
+    return Job(complete, programs, proof, None, fold.pattern, Path("coupon"))
 
 
 def answers(bars: dict[str, float], x: float, y: float) -> str:

@@ -27,7 +27,7 @@ from foldmill.errors import InvalidPattern, UnreadableFile
 from foldmill.exchange import cuts, frames, json_text, mending
 from foldmill.exchange.elements import array, coordinates
 from foldmill.exchange.graph import Graph, middle, of_polygons, of_triangles
-from foldmill.exchange.json_text import Frame, plain
+from foldmill.exchange.json_text import Frame, plains
 from foldmill.exchange.keys import ADDED, DESIGN, DESIGNED, POLYGON, SEAMS, SYMMETRY
 from foldmill.exchange.sheet import Sheet, read_sheet, scale
 from foldmill.folded import FoldedForm
@@ -188,9 +188,9 @@ def _listed(frame: Frame, key: str) -> list[Any]:
 def _pattern_frame(fold: Fold, graph: Graph) -> Frame:
     return {
         "vertices_coords": _places(fold.pattern.vertices, graph),
-        "edges_vertices": [list(edge) for edge in graph.edges],
+        "edges_vertices": graph.edges,
         "edges_assignment": graph.letters,
-        "edges_foldAngle": [plain(angle) for angle in graph.angles],
+        "edges_foldAngle": plains(graph.angles),
         "faces_vertices": graph.faces,
     }
 
@@ -198,7 +198,9 @@ def _pattern_frame(fold: Fold, graph: Graph) -> Frame:
 def _places(vertices: Floats, graph: Graph) -> list[list[float]]:
     places = vertices.tolist()
     spread = [middle([places[i] for i in source]) for source in graph.vertex_source]
-    return [[plain(x) for x in place] for place in spread]
+    flat = iter(plains(spread))
+    size = vertices.shape[1]
+    return [list(place) for place in zip(*[flat] * size, strict=True)]
 
 
 def _about(fold: Fold) -> Frame:

@@ -17,6 +17,9 @@ Source = tuple[int, ...]
 """Which elements one stands for: (i,) repeats i, (i, j) lies midway between both, () is new."""
 
 
+_LETTERS = {int(each): each.name for each in Assignment}
+
+
 @dataclass
 class Graph:
     """Edges and faces of a frame in a file, and what each repeats of the frame it was made from."""
@@ -124,7 +127,7 @@ def of_polygons(pattern: CreasePattern, corners: list[int]) -> Graph | None:
     kept = np.flatnonzero(~added)
     return Graph(
         [(a, b) for a, b in pattern.edges[kept].tolist()],
-        [Assignment(code).name for code in pattern.assignments[kept]],
+        [_LETTERS[code] for code in pattern.assignments[kept].tolist()],
         pattern.fold_angles[kept].tolist(),
         [_turned(loop, start) for loop, start in zip(loops, starts, strict=True) if loop],
         numbered(len(pattern.vertices)),

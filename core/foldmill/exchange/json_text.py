@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from foldmill.errors import UnreadableFile
 
@@ -18,10 +22,17 @@ _EXACT = 2.0**53
 """Beyond this a float says nothing about units, so it is left as it is."""
 
 
-def plain(value: float) -> int | float:
-    """Return a number as short as JSON can say it: 3.0 as 3, -0.0 as 0."""
-    whole = value.is_integer() and abs(value) < _EXACT
-    return int(value) if whole else float(value)
+def plains(values: ArrayLike) -> list[int | float]:
+    """Return the numbers of an array in its order, as short as JSON can say them.
+
+    3.0 becomes 3 and -0.0 becomes 0.
+    """
+    given = np.asarray(values, float).ravel()
+    found: list[int | float] = given.tolist()
+    whole = (given == np.floor(given)) & (np.abs(given) < _EXACT)
+    for k in np.flatnonzero(whole).tolist():
+        found[k] = int(found[k])
+    return found
 
 
 def dump(data: Mapping[str, Any]) -> str:
@@ -49,16 +60,28 @@ def _value(key: str, value: Any, indent: str) -> str:
 def _elements(value: Any, indent: str) -> str:
     if not isinstance(value, list) or not value:
         return _compact(value)
-    if all(map(_is_numbers, value)):
+    if _are_rows(value):
         return _block([f"{indent} [{row}]" for row in _compact(value)[2:-2].split("], [")], indent)
+    if _is_flat(value):
+        words = _compact(value)[1:-1].split(", ")
+        cut = range(0, len(words), _PER_ROW)
+        return _block([f"{indent} {', '.join(words[k : k + _PER_ROW])}" for k in cut], indent)
     per_row = 1 if any(isinstance(item, list | dict) for item in value) else _PER_ROW
     rows = [value[k : k + per_row] for k in range(0, len(value), per_row)]
     return _block([f"{indent} {_compact(row)[1:-1]}" for row in rows], indent)
 
 
-def _is_numbers(item: Any) -> bool:
-    """Tell whether an item is a list of numbers: many of those are written at once."""
-    return type(item) is list and bool(item) and {*map(type, item)} <= {int, float}
+def _are_rows(value: list[Any]) -> bool:
+    """Tell whether items are lists of numbers, none of them empty: all are written at once."""
+    if not {*map(type, value)} <= {list, tuple} or not all(value):
+        return False
+    return {*map(type, chain.from_iterable(value))} <= {int, float}
+
+
+def _is_flat(value: list[Any]) -> bool:
+    """Tell whether items are numbers, or words without commas: all of them are written at once."""
+    kinds = {*map(type, value)}
+    return kinds <= {int, float} or (kinds == {str} and "," not in "".join(value))
 
 
 def _block(rows: Sequence[str], indent: str) -> str:

@@ -1,4 +1,4 @@
-"""What there is: families, plugins, materials, machines."""
+"""What there is: families, plugins, materials, machines, profiles of drawings."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def add_to(app: typer.Typer) -> None:
     """Add these commands to the application."""
-    for command in (families, plugins, materials, machines):
+    for command in (families, plugins, materials, machines, profiles):
         app.command()(command)
 
 
@@ -120,3 +120,21 @@ def described(preset: Sourced) -> str:
     ]
     texts = [f"{row.name}: {value}" for row, value in told if len(value) > LONG]
     return "\n".join([table(lines), *texts])
+
+
+def profiles(show: Show = None, as_json: AsJson = False) -> None:
+    """List the profiles of drawings, or the legend of one: a name or a TOML file."""
+    from foldmill_fabricate import profiles as known
+
+    if show is None:
+        found = {name: known.find(name).title for name in known.names()}
+        say(as_json, found, table([("PROFILE", "TITLE"), *found.items()]))
+        return
+    one = known.find(show)
+    rows = [
+        (look.name, look.colour, str(look.aci), str(look.pen), about)
+        for look, about in known.legend(one)
+    ]
+    text = table([("LAYER", "SVG", "DXF", "PEN", "FOR"), *rows])
+    said = f"{one.slug}: {one.title}\n{one.provenance}\n{text}"
+    say(as_json, one.model_dump(mode="json"), said)

@@ -34,6 +34,13 @@ class FlipChoice(StrEnum):
     END_OVER_END = "end-over-end"
 
 
+class DxfChoice(StrEnum):
+    """Which DXF drawings are written in."""
+
+    R2000 = "r2000"
+    R12 = "r12"
+
+
 class UnassignedChoice(StrEnum):
     """Where creases without mountain or valley are scored."""
 
@@ -128,18 +135,26 @@ def plan(
     ] = None,
     to: Annotated[
         str | None,
-        typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
+        typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
     ] = None,
     planarise: Planarise = False,
+    profile: Annotated[
+        str, typer.Option(help="Names and colours of the drawings' layers: a name or a TOML file.")
+    ] = "foldmill",
+    dxf: Annotated[DxfChoice, typer.Option(help="Which DXF: R12 for old software.")] = (
+        DxfChoice.R2000
+    ),
     as_json: AsJson = False,
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
-    from foldmill_fabricate import folder
+    from foldmill_fabricate import folder, profiles
     from foldmill_fabricate.plan import make
+    from foldmill_fabricate.profiles import Style
 
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)
     fold = load(file, planarise)
+    look = Style(profiles.find(profile), "R12" if dxf is DxfChoice.R12 else "R2000")
     made = make(
         fold,
         chosen_material,
@@ -156,7 +171,7 @@ def plan(
         register=registration.value,
         temperatures=None if temperature is None else temperatures(temperature),
     )
-    written = folder.write(fold, made, output, formats)
+    written = folder.write(fold, made, output, formats, look)
     programs = (
         "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
     )
@@ -168,7 +183,9 @@ def plan(
 def formats_for(to: str | None, machine: Machine) -> list[str]:
     """Return the formats asked for, by default what the machine can use."""
     if to is None:
-        return ["svg", "dxf", "hpgl"] if machine.language == "hpgl" else ["svg", "dxf"]
+        from foldmill_fabricate.writers import writer
+
+        return ["svg", "dxf", *([machine.language] if writer(machine) else [])]
     formats = [name.strip() for name in to.split(",") if name.strip()]
     if not formats:
         raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")

@@ -68,7 +68,7 @@ def coupon(
     ] = False,
     to: Annotated[
         str | None,
-        typer.Option(help="Formats, separated by commas; default: svg,dxf and, if it can, hpgl."),
+        typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:

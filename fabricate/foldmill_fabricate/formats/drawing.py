@@ -13,7 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import Face, Operation, Plan, Role, SetUp, Stroke
+from foldmill_fabricate.profiles import Layer, Layers, Profile, find
 from foldmill_fabricate.sheet import flipped
 
 Floats = NDArray[np.float64]
@@ -26,41 +28,14 @@ NOTE_AT = (8.0, 2.0)
 """mm. Left end of a note's baseline: below the holes, right of the corner's anchor."""
 
 
-@dataclass(frozen=True)
-class Layer:
-    """A layer's name, and how software that goes by colour or pen recognises it."""
-
-    name: str
-    aci: int
-    """AutoCAD colour index, as die-making software maps it."""
-    colour: str
-    """#rrggbb of LightBurn's palette, which maps colours to layers."""
-    pen: int
-    """Pen number where SP selects no tools; ascending in order of work."""
-
-
-LAYERS = (
-    Layer("REG", 10, "#00e000", 1),
-    Layer("SCORE_FRONT", 4, "#0000ff", 2),
-    Layer("SCORE_BACK", 9, "#ff8000", 2),
-    Layer("CUT_INNER", 1, "#d0d000", 4),
-    Layer("CUT_OUTER", 1, "#ff0000", 4),
-)
-"""Layers that are worked, in order of work."""
-NOTE = Layer("NOTE", 20, "#b4b4b4", 5)
-"""Words for people; no output."""
-ANCHOR = Layer("ANCHOR", 20, "#b4b4b4", 5)
-"""Corner marks; no output."""
-
-_BY_NAME = {layer.name: layer for layer in LAYERS}
 _CUTS = {
-    Role.HOLE: "REG",
-    Role.MARK: "REG",
-    Role.VERNIER: "CUT_INNER",
-    Role.RELIEF: "CUT_INNER",
-    Role.CUT_INNER: "CUT_INNER",
-    Role.CUT_OUTER: "CUT_OUTER",
+    Role.HOLE: "holes",
+    Role.MARK: "holes",
+    Role.RELIEF: "cut_inner",
+    Role.CUT_INNER: "cut_inner",
+    Role.CUT_OUTER: "cut_outer",
 }
+_PRESSED = frozenset({"crease-wheel", "stylus", "pen"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,19 +59,28 @@ class Drawing:
     height: float
     note: str
     groups: tuple[Group, ...]
+    layers: Layers
 
 
-def drawings(plan: Plan) -> Iterator[Drawing]:
+def drawings(plan: Plan, profile: Profile | None = None) -> Iterator[Drawing]:
     """Yield one drawing per face that is worked on, as the machine sees it, then the master."""
+    layers = (profile or find()).layers
     for work in plan.passes:
-        yield _drawing(plan, work.face.value, (work.face,), mirror=work.face is Face.REVERSE)
-    yield _drawing(plan, "master", tuple(Face), mirror=False)
+        mirror = work.face is Face.REVERSE
+        yield _drawing(plan, layers, work.face.value, (work.face,), mirror=mirror)
+    yield _drawing(plan, layers, "master", tuple(Face), mirror=False)
 
 
-def layer_of(role: Role, face: Face) -> Layer:
-    """Return the layer of a role; scores, the witness mark among them, have one for each face."""
-    score = "SCORE_FRONT" if face is Face.FRONT else "SCORE_BACK"
-    return _BY_NAME[_CUTS.get(role, score)]
+def layer_of(role: Role, face: Face, kind: Kind) -> str:
+    """Return the key of a role's layer; scores of this kind, the witness mark among them, have one
+    for each face, but for a perforation, which goes through.
+    """
+    if role in _CUTS:
+        return _CUTS[role]
+    if kind == "perforation":
+        return "perforation"
+    made = "crease" if kind in _PRESSED else "score"
+    return f"{made}_{'front' if face is Face.FRONT else 'back'}"
 
 
 def anchors(width: float, height: float) -> list[Floats]:
@@ -114,18 +98,21 @@ def is_closed(line: Floats) -> bool:
     return len(line) > 3 and bool((line[0] == line[-1]).all())
 
 
-def _drawing(plan: Plan, name: str, faces: tuple[Face, ...], *, mirror: bool) -> Drawing:
+def _drawing(
+    plan: Plan, layers: Layers, name: str, faces: tuple[Face, ...], *, mirror: bool
+) -> Drawing:
     found: dict[str, list[tuple[SetUp, Stroke]]] = {}
     for face, setup, operation in _operations(plan):
         if face in faces:
-            lines = found.setdefault(layer_of(operation.role, face).name, [])
-            lines += [(setup, stroke) for stroke in operation.strokes]
+            key = layer_of(operation.role, face, plan.material.score.kind)
+            found.setdefault(key, []).extend((setup, stroke) for stroke in operation.strokes)
     groups = tuple(
-        Group(layer, found[layer.name][0][0], _lines(plan, found[layer.name], mirror=mirror))
-        for layer in LAYERS
-        if found.get(layer.name)
+        Group(getattr(layers, key), found[key][0][0], _lines(plan, found[key], mirror=mirror))
+        for key in Layers.model_fields
+        if found.get(key)
     )
-    return Drawing(name, plan.sheet.width, plan.sheet.height, _note(plan, name), groups)
+    note = _note(plan, name)
+    return Drawing(name, plan.sheet.width, plan.sheet.height, note, groups, layers)
 
 
 def _operations(plan: Plan) -> Iterator[tuple[Face, SetUp, Operation]]:

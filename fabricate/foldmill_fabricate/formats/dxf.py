@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from io import StringIO
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 from foldmill import Fold
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.profiles import Layer, Style, find
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -22,15 +24,19 @@ UNITS = {"R2000": 4, "R12": 0}
 """The value of $INSUNITS: mm, or none where the header has no such variable."""
 
 
-def write(plan: Plan, fold: Fold, version: Version = "R2000") -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
+def write(plan: Plan, fold: Fold, style: Style | None = None) -> Mapping[str, bytes]:  # noqa: ARG001 - every format is given both
     """Return ``front.dxf``, ``reverse.dxf`` (as the machine sees it) and ``master.dxf``.
 
-    version : R12 has no unit in its header and knows no LWPOLYLINE; for old software only.
+    style : names and colours of layers, and the version; R12 has no unit in its header and knows no
+    LWPOLYLINE, for old software only.
     """
-    return {f"{view.name}.dxf": _dxf(view, version) for view in d.drawings(plan)}
+    chosen = style or Style(find())
+    views = d.drawings(plan, chosen.profile)
+    return {f"{view.name}.dxf": one(view, chosen.dxf) for view in views}
 
 
-def _dxf(view: d.Drawing, version: Version) -> bytes:
+def one(view: d.Drawing, version: Version = "R2000") -> bytes:
+    """Return one drawing as a DXF file."""
     from ezdxf.filemanagement import new
 
     with _without_clock():
@@ -42,34 +48,42 @@ def _dxf(view: d.Drawing, version: Version) -> bytes:
         copies: Copies = {}
         for group in view.groups:
             copies |= _add_lines(space, group.layer, group.lines)
-        copies |= _add_lines(space, d.ANCHOR, tuple(d.anchors(view.width, view.height)))
+        copies |= _add_lines(space, view.layers.anchor, tuple(d.anchors(view.width, view.height)))
         _add_note(space, view)
         return _to_bytes(document, copies)
 
 
 @contextmanager
 def _without_clock() -> Iterator[None]:
-    """Let ezdxf write fixed dates and identifiers, and give it back its own option afterwards."""
+    """Let ezdxf write fixed dates and identifiers, and give it back its own options afterwards.
+
+    That R12 holds no unit is said here, where it is chosen, and not on every run.
+    """
     from ezdxf import options  # type: ignore[attr-defined]  # public, though not in __all__
 
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True
+    logger = logging.getLogger("ezdxf")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
     try:
         yield
     finally:
+        logger.setLevel(level)
         options.write_fixed_meta_data_for_testing = before
 
 
 def _add_layers(document: Drawing, view: d.Drawing) -> None:
     for group in view.groups:
-        document.layers.add(group.layer.name, color=group.layer.aci)
-    for layer in (d.ANCHOR, d.NOTE):
+        if group.layer.name not in document.layers:
+            document.layers.add(group.layer.name, color=group.layer.aci)
+    for layer in (view.layers.anchor, view.layers.note):
         silent = document.layers.add(layer.name, color=layer.aci)
         if document.dxfversion > "AC1009":
             silent.dxf.plot = 0
 
 
-def _add_lines(space: Modelspace, layer: d.Layer, lines: tuple[d.Floats, ...]) -> Copies:
+def _add_lines(space: Modelspace, layer: Layer, lines: tuple[d.Floats, ...]) -> Copies:
     """Add each line once; with a colour of its own, for readers that know no layers.
 
     Of straight lines in a row only the first is added; returns the others.
@@ -98,7 +112,7 @@ def _add_polyline(space: Modelspace, line: d.Floats, look: dict[str, object]) ->
 
 
 def _add_note(space: Modelspace, view: d.Drawing) -> None:
-    look = {"layer": d.NOTE.name, "color": d.NOTE.aci}
+    look = {"layer": view.layers.note.name, "color": view.layers.note.aci}
     space.add_text(view.note, height=d.NOTE_HEIGHT, dxfattribs=look).set_placement(d.NOTE_AT)
 
 

@@ -8,7 +8,7 @@ from math import dist
 from foldmill import Assignment, CreasePattern
 from foldmill.finding import Severity
 from foldmill.tolerances import CLOSED_DEG
-from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.formats.programs import layout
 from foldmill_fabricate.jobsheet.creases import CreaseGroup
 from foldmill_fabricate.passes import Face, Gate, Pass, Plan, SetUp
 from foldmill_fabricate.sheet import flipped, seen_by_machine
@@ -58,9 +58,7 @@ def _mass(plan: Plan) -> float:
 
 def setup_rows(plan: Plan) -> list[tuple[Row, str]]:
     """Return per set-up the table's row and what to do before it, in order of work."""
-    writes = plan.machine.language == "hpgl"
-    parts = hpgl.layout(plan) if writes else ()
-    programs = {n: part.name for part in parts for n in part.setups}
+    programs = {n: part.name for part in layout(plan) for n in part.setups}
     return [
         (
             _setup_row(plan, work, setup, programs.get(setup.number, "–")),

@@ -58,6 +58,10 @@ class Axes(Preset):
     """Least coordinate that the firmware accepts, steps."""
     highest: int = 32767
     """Greatest coordinate that the firmware accepts, steps."""
+    top: Annotated[Mm | None, Field(gt=0)] = None
+    """Where y is counted downwards from the upper edge of the carrier: the carrier's height. Each
+    plan puts that of its own carrier there. None where y is counted upwards, from the lower edge.
+    """
     scale_x: Annotated[float, Field(ge=0.9, le=1.1)] = 1.0
     """What lengths along the sheet's x are multiplied with, because the machine makes them off."""
     scale_y: Annotated[float, Field(ge=0.9, le=1.1)] = 1.0
@@ -66,7 +70,7 @@ class Axes(Preset):
     """By how much a line along y is turned clockwise, because the machine leans it the other way.
 
     Scale and skew are applied last, to carrier coordinates: x' = scale_x·(x + y·tan skew),
-    y' = scale_y·y.
+    y' = scale_y·y, or scale_y·(top - y).
     """
 
 
@@ -128,6 +132,8 @@ class Dialect(Preset):
     """Whether VS (cm/s) is understood."""
     force: bool = True
     """Whether FS (gf) is understood."""
+    lifts_apart: bool = False
+    """Whether PU and the way to the next stroke are two instructions, PU and PA."""
     line_end: str = "\n"
     """What stands after each instruction."""
     max_instruction: int = Field(240, ge=32)
@@ -136,6 +142,23 @@ class Dialect(Preset):
     """Whether an IN that arrives later cancels what the machine has not begun."""
     controls: Literal["hp-7475", "hp-7550"] = "hp-7475"
     """Which ESC sequences it knows; the HP 7550A has more."""
+
+
+class Gcode(Preset):
+    """How a machine that speaks G-code brings its tool into the sheet."""
+
+    lowers: Literal["z", "beam"] = "z"
+    """By its Z axis, which is 0 on the sheet's upper face; or by switching a beam on."""
+    clear: Mm = Field(5.0, gt=0)
+    """Z at which the tool travels above the sheet."""
+    plunge_speed: MmPerSecond = Field(5.0, gt=0)
+    """Speed of the way down into the sheet."""
+    press: Mm = Field(0.5, gt=0)
+    """How far below Z 0 a tool that does not cut, such as a pen on a spring, is lowered."""
+    score_power: int = Field(1000, ge=1)
+    """S of a beam that scores or perforates; M4 takes it back where the head is slow."""
+    cut_power: int = Field(1000, ge=1)
+    """S of a beam that cuts through; M3 keeps it as it is."""
 
 
 class Motion(Preset):
@@ -263,12 +286,12 @@ class Machine(Sourced):
     )
     """What kind of machine it is."""
     language: Annotated[str, Field(pattern=r"^[a-z][a-z0-9.+-]*$")]
-    """Programs are written in HP-GL, and in what plugins add; of gp-gl and gcode drawings are made.
-    """
+    """Programs are written in hpgl, gp-gl and gcode, and in what plugins add."""
     bed: Bed
     axes: Axes
     tools: Tools
     dialect: Dialect = Field(default_factory=lambda: Dialect.model_validate({}))
+    gcode: Gcode = Field(default_factory=lambda: Gcode.model_validate({}))
     motion: Motion
     serial: Serial
     marks: Marks = Field(default_factory=lambda: Marks.model_validate({}))

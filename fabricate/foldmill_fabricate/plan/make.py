@@ -38,7 +38,7 @@ from foldmill_fabricate.plan.figures import measure
 from foldmill_fabricate.plan.grids import Block, Grid
 from foldmill_fabricate.plan.placement import lay_blank, lay_out
 from foldmill_fabricate.plan.registration import Registration
-from foldmill_fabricate.sheet import placed
+from foldmill_fabricate.sheet import placed, seated
 
 Floats = NDArray[np.float64]
 ByFace = dict[Face, NDArray[np.intp]]
@@ -94,6 +94,7 @@ def make(
     )
     passes = setups.passes(drawn, by_face, marks, material, machine, sheet, turn)
     passes = lead_ins.added(passes, rims, marks, sheet, material, machine)
+    machine = seated(machine, sheet)
     draft = Plan(
         title=str(fold.meta.get("title", "")),
         pattern_sha256=hashlib.sha256(fold_file.write(fold).encode()).hexdigest(),

@@ -20,6 +20,7 @@ from foldmill_fabricate.materials import (
 )
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import relief, shapes, short, spacing
+from foldmill_fabricate.writers import writer
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -73,13 +74,13 @@ def _material(plan: Plan) -> Iterator[Finding]:
 
 
 def _language(plan: Plan) -> Iterator[Finding]:
-    if plan.machine.language != "hpgl":
+    if writer(plan.machine) is None:
         yield Finding(
             "no-programs",
             Severity.WARNING,
             plan.machine.slug,
-            f"This machine speaks {plan.machine.language}, and programs in that language cannot be "
-            f"written yet.",
+            f"This machine speaks {plan.machine.language}, and nothing installed writes programs "
+            f"in that language.",
             "Open the drawings in the machine's own software, one face after the other.",
         )
 

@@ -148,6 +148,7 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
 def _swivel_force(draft: _Draft, material: Material, machine: Machine) -> float:
     """Return the force for turning a blade out of the groove: where a program can do that."""
     possible = machine.tools.host_offset > 0 and machine.dialect.force
+    possible = possible and machine.language != "gcode"  # which knows no force
     return material.cut.swivel_force if possible and draft.process == "cut" else 0.0
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.writers import writer
 
 
 def findings(plan: Plan) -> Iterator[Finding]:
@@ -20,7 +21,7 @@ def findings(plan: Plan) -> Iterator[Finding]:
             f"nothing is made up for.",
             f"Plan with --flip {stored.flip}, or measure a coupon turned like this one.",
         )
-    elif plan.machine.language != "hpgl":
+    elif writer(plan.machine) is None:
         yield _warning(
             f"{told}, and a drawing shows the sheet as it ought to lie: nothing is made up for.",
             "Shift and turn the reverse drawing by as much in the machine's own software.",

@@ -50,13 +50,18 @@ class Grid:
     axes: Axes
 
     @cached_property
+    def _level(self) -> Axes:
+        """Where y is counted downwards its steps lie alike, the carrier's height being whole."""
+        return self.axes.model_copy(update={"top": None})
+
+    @cached_property
     def _back(self) -> Floats:
         """(2, 2) from steps to mm."""
-        return np.linalg.inv(in_steps(np.eye(2), self.axes).T).astype(np.float64)
+        return np.linalg.inv(in_steps(np.eye(2), self._level).T).astype(np.float64)
 
     def rounded(self, points: ArrayLike) -> Floats:
         """Return the places (n, 2) nearest to points, mm."""
-        near: Floats = np.floor(in_steps(points, self.axes) + 0.5) @ self._back.T
+        near: Floats = np.floor(in_steps(points, self._level) + 0.5) @ self._back.T
         return near
 
     def snapped(self, guide: Guide, offset: float, heading: float) -> tuple[Floats, float]:
@@ -78,7 +83,7 @@ class Grid:
         """Return places, the heading after them, and how far the tip strays, mm."""
         from foldmill_fabricate.toolpath.tractrix import search
 
-        wanted = in_steps(guide.holder, self.axes)
+        wanted = in_steps(guide.holder, self._level)
         found = np.zeros(wanted.shape)
         blade = np.array([offset, 1 / self.axes.units_per_mm])
         states = np.tile([np.nan, np.nan, heading, 0.0, 0.0], (width, 1))

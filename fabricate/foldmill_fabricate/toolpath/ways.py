@@ -18,7 +18,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import SetUp
 from foldmill_fabricate.toolpath import knife
 from foldmill_fabricate.toolpath.snapping import Grid
-from foldmill_fabricate.toolpath.traversal import traversal
+from foldmill_fabricate.toolpath.traversal import traversals
 
 Floats = NDArray[np.float64]
 See = Callable[[ArrayLike], Floats]
@@ -33,13 +33,36 @@ class Way(NamedTuple):
     """Whether the blade only rests on the sheet, to be turned."""
 
 
+class Joined(NamedTuple):
+    """Motions with the tool down, one behind the other."""
+
+    points: Floats
+    """(n, 2) mm, as the machine sees the sheet."""
+    counts: NDArray[np.intp]
+    """(k,) of points of each."""
+    light: NDArray[np.bool_]
+    """(k,) whether the blade only rests on the sheet."""
+
+
+def joined(setup: SetUp, machine: Machine, see: See) -> Joined:
+    """Return the ways of a set-up in order of work, in one array: there may be very many."""
+    if machine.tools.host_offset:
+        found = ways(setup, machine, see)
+        counts = np.array([len(way.points) for way in found], np.intp)
+        light = np.array([way.light for way in found], bool)
+        return Joined(np.vstack([np.zeros((0, 2)), *(way.points for way in found)]), counts, light)
+    laid = [traversals(operation.strokes, operation) for operation in setup.operations]
+    counts = np.concatenate([np.zeros(0, np.intp), *(each.counts for each in laid)])
+    points = np.vstack([np.zeros((0, 2)), *(each.points for each in laid)])
+    return Joined(see(points), counts, np.zeros(len(counts), bool))
+
+
 def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
     """Return the ways of a set-up in order of work; see : sheet points (n, 2) to the machine's."""
-    tips = [
-        see(traversal(stroke, operation))
-        for operation in setup.operations
-        for stroke in operation.strokes
-    ]
+    tips: list[Floats] = []
+    for operation in setup.operations:
+        laid = traversals(operation.strokes, operation)
+        tips += np.split(see(laid.points), np.cumsum(laid.counts)[:-1])
     offset = machine.tools.host_offset
     if not offset:
         return [Way(tip) for tip in tips]

@@ -14,6 +14,7 @@ from foldmill.errors import UnreadableFile
 from foldmill.finding import Finding, Severity
 from foldmill.refusals import explain
 from foldmill_fabricate.passes import Fit, Plan
+from foldmill_fabricate.verify.planned import SUFFIXES
 from foldmill_fabricate.verify.verification import Verification, verify
 
 PLAN = "plan.json"
@@ -28,7 +29,7 @@ class JobFiles:
     pattern: CreasePattern
     pattern_bytes: bytes
     programs: Mapping[str, bytes]
-    """Every file that the plan names as a program, and every ``.hpgl`` file, by name."""
+    """Every file that the plan names as a program, and others named like programs, by name."""
 
 
 def read_folder(path: str | Path) -> JobFiles:
@@ -41,7 +42,8 @@ def read_folder(path: str | Path) -> JobFiles:
     plan = _plan(folder)
     data = _bytes(folder, PATTERN)
     named = [folder / Path(file.name).name for file in plan.programs]
-    files = {file for file in [*named, *folder.glob("*.hpgl")] if file.is_file()}
+    others = [file for suffix in SUFFIXES for file in folder.glob(f"*{suffix}")]
+    files = {file for file in [*named, *others] if file.is_file()}
     programs = {file.name: file.read_bytes() for file in sorted(files)}
     return JobFiles(plan, _pattern(data, folder / PATTERN), data, programs)
 

@@ -41,6 +41,8 @@ class Run:
     """Where in the program it begins."""
     choice: int = 0
     """How often SP had chosen a tool before it."""
+    settings: tuple[tuple[str, float], ...] = ()
+    """What else the program had set, by name, such as a depth; in the order of their names."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,11 @@ from __future__ import annotations
 from foldmill import installed
 from foldmill_fabricate.hooks import INTERPRETERS, Interpreter
 from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.verify.gcode import interpret as gcode
+from foldmill_fabricate.verify.gpgl import interpret as gpgl
 from foldmill_fabricate.verify.interpreter import Trace, interpret
+
+__all__ = ["gcode", "gpgl", "hpgl", "replay"]
 
 
 def hpgl(program: bytes, name: str, machine: Machine) -> Trace:

@@ -15,6 +15,11 @@ from foldmill_fabricate.verify.cover import Stretches, stretches
 Floats = NDArray[np.float64]
 
 
+_SUFFIX_OF = {"hpgl": ".hpgl", "gp-gl": ".gpgl", "gcode": ".nc"}
+SUFFIXES = tuple(_SUFFIX_OF.values())
+"""What the names of programs end with."""
+
+
 @dataclass(frozen=True, eq=False)
 class Planned:
     """One stroke of the plan and what is to be done along it."""
@@ -91,18 +96,19 @@ def program_files(plan: Plan) -> tuple[ProgramFile, ...]:
     """
     if plan.programs:
         return plan.programs
+    suffix = _SUFFIX_OF.get(plan.machine.language, SUFFIXES[0])
     if plan.machine.tools.change == "operator":
         return tuple(
-            _file(f"{setup.number}-{setup.name}", side.face, [setup])
+            _file(f"{setup.number}-{setup.name}{suffix}", side.face, [setup])
             for side in plan.passes
             for setup in side.setups
         )
-    return tuple(_file(side.face, side.face, side.setups) for side in plan.passes)
+    return tuple(_file(f"{side.face}{suffix}", side.face, side.setups) for side in plan.passes)
 
 
-def _file(stem: str, face: Face, setups: Iterable[SetUp]) -> ProgramFile:
+def _file(name: str, face: Face, setups: Iterable[SetUp]) -> ProgramFile:
     numbers = tuple(setup.number for setup in setups)
-    return ProgramFile(name=f"{stem}.hpgl", face=face, setups=numbers, sha256="")
+    return ProgramFile(name=name, face=face, setups=numbers, sha256="")
 
 
 def at(point: Iterable[float]) -> str:

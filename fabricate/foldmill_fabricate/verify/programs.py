@@ -10,14 +10,14 @@ import numpy as np
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile, Role
-from foldmill_fabricate.verify import tolerances
+from foldmill_fabricate.verify import settings, tolerances
 from foldmill_fabricate.verify.cover import pairs, pieces, uncovered
 from foldmill_fabricate.verify.drawing import Drawing
 from foldmill_fabricate.verify.interpreter import Trace
 from foldmill_fabricate.verify.languages import replay
 from foldmill_fabricate.verify.limits import outside
 from foldmill_fabricate.verify.offsets import wrong_offset
-from foldmill_fabricate.verify.planned import Planned, at, planned, program_files
+from foldmill_fabricate.verify.planned import SUFFIXES, Planned, at, planned, program_files
 from foldmill_fabricate.verify.steering import steered
 from foldmill_fabricate.verify.suspects import find_cause
 from foldmill_fabricate.verify.virtual_sheet import Line, modelled_offset, to_carrier
@@ -79,7 +79,7 @@ def _files_findings(
             "foreign-program", Severity.WARNING, name, "The plan knows nothing of this program."
         )
         for name in sorted(programs)
-        if name.endswith(".hpgl") and name not in known
+        if name.endswith(SUFFIXES) and name not in known
     ]
     given = [number for file in files for number in file.setups]
     wanted = [setup.number for side in plan.passes for setup in side.setups]
@@ -183,31 +183,14 @@ def _tool_findings(plan: Plan, drawing: Drawing) -> list[Finding]:
     for line, k in zip(drawing.lines, drawing.strokes_of_lines.tolist(), strict=True):
         if k < 0:
             continue
-        for code, text in _tool_faults(plan, line, drawing.strokes[k]):
-            key = (code, drawing.strokes[k].setup.number, text)
+        setup = drawing.strokes[k].setup
+        for code, text in settings.wrong(plan, line.run, setup):
+            key = (code, setup.number, text)
             wrong[key] = wrong.get(key, 0) + 1
     return [
         _error(code, f"{drawing.name}, set-up {number}", f"{text} ({count} strokes).")
         for (code, number, text), count in wrong.items()
     ]
-
-
-def _tool_faults(plan: Plan, line: Line, stroke: Planned) -> list[tuple[str, str]]:
-    run, setup, dialect = line.run, stroke.setup, plan.machine.dialect
-    faults = []
-    if (run.tool or 0) != setup.tool:
-        faults.append(("wrong-tool", f"It uses tool {run.tool}, not {setup.tool}"))
-    if dialect.speed and (run.speed is None or abs(run.speed - setup.speed) > _HALF_VS):
-        faults.append(("wrong-speed", f"The speed is {run.speed} mm/s, not {setup.speed:g}"))
-    if dialect.force and (run.force is None or abs(run.force - setup.force) > _HALF_FS):
-        faults.append(("wrong-force", f"The force is {run.force} gf, not {setup.force:g}"))
-    return faults
-
-
-_HALF_VS = 5.0
-"""mm/s. VS counts whole cm/s, so half of one may be lost."""
-_HALF_FS = 0.5
-"""gf. FS counts whole grams."""
 
 
 def _order_findings(drawing: Drawing) -> list[Finding]:

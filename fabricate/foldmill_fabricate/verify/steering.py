@@ -20,6 +20,7 @@ from foldmill_fabricate.passes import Fit, Plan, ProgramFile, SetUp
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.blade import STARTS, dragged
 from foldmill_fabricate.verify.interpreter import Run, Trace
+from foldmill_fabricate.verify.settings import as_near, force_unit
 from foldmill_fabricate.verify.virtual_sheet import (
     Line,
     modelled_offset,
@@ -30,8 +31,6 @@ from foldmill_fabricate.verify.virtual_sheet import (
 
 Floats = NDArray[np.float64]
 
-_HALF_FS = 0.5
-"""gf. FS counts whole grams."""
 _RESTS = 0.5
 """Offsets. A tip that has gone on by more has turned along a way, not at a corner."""
 
@@ -109,7 +108,7 @@ class _Drag:
         force = setup.swivel_force if setup is not None else 0.0
         if not force:
             self.draw(tip, run)
-        elif run.force is not None and abs(run.force - force) <= _HALF_FS:
+        elif as_near(run.force, force, force_unit(self.plan.machine)):
             self._light(run, tip)
         else:
             self.draw(tip, run)

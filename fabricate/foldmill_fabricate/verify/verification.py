@@ -67,9 +67,9 @@ def verify(
 
     Errors that the plan itself reports (grooves that come too near) are findings here too.
 
-    programs : bytes by file name, such as ``1-front-holes.hpgl``; names without ``.hpgl`` are left
-    alone. fit : how a reverse lies whose programs were fitted to measured marks; those programs are
-    not the recorded ones, so that only their drawing is compared.
+    programs : bytes by file name, such as ``1-front-holes.hpgl``; what is not named like a program
+    is left alone. fit : how a reverse lies whose programs were fitted to measured marks; those
+    programs are not the recorded ones, so that only their drawing is compared.
     """
     proof = prove_programs(plan, programs, fit)
     own = [finding for finding in plan.findings if finding.severity is Severity.ERROR]

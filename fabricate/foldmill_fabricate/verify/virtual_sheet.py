@@ -48,6 +48,8 @@ def on_carrier(steps: ArrayLike, axes: Axes) -> Floats:
     mm = np.asarray(steps, float) / axes.units_per_mm
     seen = mm[:, ::-1] if axes.swap else mm
     upright = seen / (axes.scale_x, axes.scale_y)
+    if axes.top is not None:
+        upright[:, 1] = axes.top - upright[:, 1]
     upright[:, 0] -= np.tan(np.radians(axes.skew)) * upright[:, 1]
     return upright
 

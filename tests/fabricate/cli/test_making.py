@@ -32,19 +32,23 @@ def foldmill(*words: str) -> int:
     return int(stop.value.code or 0)
 
 
-def test_a_machine_of_another_language_gets_drawings(job: Path) -> None:
+def test_a_machine_gets_drawings_and_programs_in_its_own_language(job: Path) -> None:
     assert foldmill("plan", "stool.fold", "--machine", "silhouette-like", "-o", "job") == 0
     names = {path.name for path in job.iterdir()}
     assert {"front.svg", "reverse.dxf", "job-sheet.pdf", "plan.json"} <= names
-    assert not any(name.endswith(".hpgl") for name in names)
+    assert {name for name in names if name[0].isdigit()} == {
+        "1-front-score.gpgl",
+        "2-reverse-score.gpgl",
+        "3-reverse-cut.gpgl",
+    }
 
 
-def test_programs_in_that_language_are_refused_in_one_sentence(
+def test_programs_in_another_language_are_refused_in_one_sentence(
     job: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ("plan", "stool.fold", "--machine", "grbl-laser", "--to", "svg,hpgl", "-o", "job")
     assert foldmill(*words) == 2
-    assert "speaks gcode, and programs in that language cannot be" in capsys.readouterr().err
+    assert "speaks gcode, so a program in hpgl is nothing to it" in capsys.readouterr().err
     assert not job.exists()
 
 

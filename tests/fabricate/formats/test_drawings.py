@@ -25,12 +25,14 @@ from foldmill_fabricate import hooks
 from foldmill_fabricate.formats import dxf, svg
 from foldmill_fabricate.formats.drawing import drawings
 from foldmill_fabricate.passes import Face
+from foldmill_fabricate.profiles import Style, find
 
 if TYPE_CHECKING:
     from conftest import Golden
 
 PLAN, FOLD = hand_made.plan(), hand_made.fold()
-SVG, DXF, R12 = svg.write(PLAN, FOLD), dxf.write(PLAN, FOLD), dxf.write(PLAN, FOLD, "R12")
+OLD = Style(find(), "R12")
+SVG, DXF, R12 = svg.write(PLAN, FOLD), dxf.write(PLAN, FOLD), dxf.write(PLAN, FOLD, OLD)
 VIEWS = ("front", "reverse", "master")
 SILENT = {"NOTE", "ANCHOR"}
 Box = tuple[float, float, float, float]
@@ -204,7 +206,8 @@ def test_bytes_are_the_same_in_another_process(seed: str) -> None:
     )
     here = hashlib.sha256(b"".join([*DXF.values(), *SVG.values()])).hexdigest()
     folder = str(Path(hand_made.__file__).parent)
-    environment = {**os.environ, "PYTHONPATH": folder, "PYTHONHASHSEED": seed}
+    paths = os.pathsep.join([folder, *sys.path])
+    environment = {**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": seed}
     command = [sys.executable, "-c", code]
     said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert said.stdout.strip() == here

@@ -68,6 +68,8 @@ class Drawn:
         """
         xy = np.array(self.points, float) / axes.units_per_mm
         told = xy[:, ::-1] if axes.swap else xy
+        if axes.top is not None:
+            told = told * (1, -1) + (0, axes.top)
         return told if self.imperfection == PERFECT else self.imperfection(told, self.face)
 
 
