@@ -16,6 +16,7 @@ from foldmill_fabricate.operators import Operator
 from foldmill_fabricate.passes import Face, ProgramFile, SetUp
 from foldmill_fabricate.plotter import link, resume, sender
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.languages import made_ready, spoken
 from foldmill_fabricate.plotter.ledger import (
     Ledger,
     Program,
@@ -29,9 +30,8 @@ from foldmill_fabricate.plotter.ledger import (
     ledger_file,
 )
 from foldmill_fabricate.plotter.lock import held
-from foldmill_fabricate.plotter.program import ready
 from foldmill_fabricate.plotter.resume import Start
-from foldmill_fabricate.plotter.sender import Delivery, Progress, Status, as_sent
+from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.sending import Job
 
 NEW = "new"
@@ -141,7 +141,7 @@ def _told(sheet: SheetRecord) -> str:
 
 def _program(job: Job, part: ProgramFile) -> Program:
     machine = job.plan.machine
-    strokes = ready(as_sent(job.programs[part.name], machine), machine).strokes
+    strokes = made_ready(job.programs[part.name], machine).strokes
     return Program(part.name, part.face, part.sha256, strokes)
 
 
@@ -181,7 +181,7 @@ class _Work:
 
     def _job(self) -> Any:
         machine = self.job.plan.machine
-        return ready(as_sent(self.job.programs[self.part.name], machine), machine)
+        return made_ready(self.job.programs[self.part.name], machine)
 
     def pass_gates(self, operator: Operator) -> None:
         """Have the operator do what is due before this program."""
@@ -214,7 +214,8 @@ class _Work:
         """Return the lead-in that a blade needs which nobody knows how it points."""
         if not self.job.plan.machine.tools.host_offset:
             return ()
-        return resume.lead_in(self._job(), record.first)
+        machine = self.job.plan.machine
+        return spoken(machine).lead_in(self._job(), record.first)
 
     def end(self, delivery: Delivery, operator: Operator) -> State:
         """Give the token back and say how the program stands.

@@ -1,6 +1,7 @@
 """Open a port by any address that pyserial knows, and ``sim://``; say plainly why it cannot be.
 
-Modem lines are never touched: pseudo-terminals and many adapters have none.
+Modem lines are touched only where the profile's handshake is one: pseudo-terminals and many
+adapters have none.
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ def open_port(url: str, machine: Machine) -> Any:
             url,
             baudrate=machine.serial.baud,
             xonxoff=machine.serial.handshake == "xon-xoff",
+            rtscts=machine.serial.handshake == "rts-cts",
             timeout=READ_SLICE,
             write_timeout=None if url.startswith("rfc2217://") else _WRITE_PATIENCE,
             exclusive=True,

@@ -15,6 +15,7 @@ from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Progress, Status, send
 from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.witness import QUESTION
 
 Make = Callable[..., Machine]
 Plug = Callable[[Simulator], str]
@@ -81,7 +82,7 @@ def test_a_machine_that_does_not_answer_ends_as_sent_not_confirmed(
 
 def test_silence_at_the_end_is_not_taken_for_success(machine: Make, plugged: Plug) -> None:
     dying = machine(handshake="xon-xoff")
-    simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) - 9}"))
+    simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) + 2 * len(QUESTION) - 1}"))
     with open_port(plugged(simulator), dying) as port:
         delivery = send(SQUARE, port, dying)
     assert delivery.status is Status.UNCONFIRMED
@@ -129,7 +130,7 @@ def test_a_machine_that_holds_the_line_for_ever_is_given_up(machine: Make, plugg
     simulator = Simulator(held)
     simulator.pause()
     with open_port(plugged(simulator), held) as port:
-        with pytest.raises(NoAnswer, match=r"held the line.*Stop the machine by hand"):
+        with pytest.raises(NoAnswer, match=r"(held the line|not confirmed).*by hand"):
             send(LONG, port, held)
         assert port.clock.now() < 120
 
