@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate.errors import CannotSend
@@ -32,6 +33,7 @@ from foldmill_fabricate.plotter.ledger import (
 from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
+from foldmill_fabricate.plotter.transcript import recorded
 from foldmill_fabricate.sending import Job
 
 NEW = "new"
@@ -71,17 +73,23 @@ def send_job(
     tell: Tell = lambda _part, _progress: None,
     ledger: Ledger | None = None,
     sheet: str = "",
+    transcript: Path | None = None,
 ) -> Iterator[Sent]:
     """Send the programs of these faces in order of work, yielding after each.
 
     url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction.
     ledger : by default the user's own. sheet : the id of a sheet that is begun, or NEW; by default
-    the one that waits for these faces, else a new one. Raises CannotSend where the operator says
+    the one that waits for these faces, else a new one. transcript : a file for what goes over the
+    wire. Raises CannotSend where the operator says
     no, LedgerRefused where the sheet is in doubt, PlotterError where the line fails. It ends early
     after a program that is not done.
     """
     book = ledger or own_ledger(url)
-    with held(url) as device, link.open_port(url, job.plan.machine) as port:
+    with (
+        held(url) as device,
+        link.open_port(url, job.plan.machine) as opened,
+        recorded(opened, link.clock_of(opened), transcript) as port,
+    ):
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
         for number, part in enumerate(job.plan.programs):
             if part.face not in faces:

@@ -195,7 +195,7 @@ def test_a_closed_cut_ends_where_it_began_and_proves_nothing(
 ) -> None:
     """The machine stands at the seam of a hole: cut, or still to be cut? A person must look."""
     with pytest.raises(Stopped):
-        list(send_job(job, bench.url, bench.operator, FRONT, stopping(20), ledger=ledger))
+        list(send_job(job, bench.url, bench.operator, FRONT, stopping(18), ledger=ledger))
     (sheet,) = ledger.open_sheets()
     with pytest.raises(LedgerRefused, match="only on a person's word"):
         list(send_job(job, bench.url, bench.operator, FRONT, ledger=ledger, sheet=sheet.id))

@@ -75,6 +75,11 @@ def _sentence(url: str, error: Exception) -> str:
     return detail + "." if "://" in url else f"The port {url} cannot be opened: {detail}."
 
 
+def explained(url: str, number: int) -> str:
+    """Return the sentence for a system error at a port."""
+    return _REASONS[number](url)
+
+
 def _number(error: Exception) -> int | None:
     """Return the system's error number; pyserial sometimes keeps it in the text only."""
     number = getattr(error, "errno", None)

@@ -117,7 +117,7 @@ def send(
 
 
 def whereabouts(port: Any, machine: Machine, clock: Clock | None = None) -> XY | None:
-    """Have a machine drop what it holds, and say where its tool stands, steps.
+    """Have a machine drop what it holds, lift its tool, and say where that stands, steps.
 
     None where it cannot drop a half-sent instruction, or does not answer: then nothing is sent.
     """
@@ -125,6 +125,7 @@ def whereabouts(port: Any, machine: Machine, clock: Clock | None = None) -> XY |
         return None
     session = HpSession(port, machine, clock or clock_of(port))
     session.open()
+    session.write(b"PU;")  # the stop's own may have been dropped just now
     session.write(QUESTION)
     proof = session.proof(session.line_free + PATIENCE + machine.motion.tool_time)
     return position(proof[0]) if proof else None

@@ -97,7 +97,7 @@ class Counted:
     def _pass(self) -> None:
         """Let a moment pass; raise what it brings."""
         session = self._session
-        session.rest_until(session.clock.now() + min(NAP, 10 * session.byte_time))
+        session.rest_until(session.clock.now() + NAP / 10)
         self._hear()
 
     def _hear(self) -> None:
