@@ -7,11 +7,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from sqlalchemy import update
 from stools import PENS, machine, material
 
 from foldmill import installed
@@ -25,7 +28,9 @@ from foldmill_fabricate.passes import Face, Plan, ProgramFile
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.clock import RealClock
 from foldmill_fabricate.plotter.errors import LedgerRefused, Stopped
-from foldmill_fabricate.plotter.ledger import Ledger, Record, Said, State, Word, ledger_file
+from foldmill_fabricate.plotter.ledger import Ledger, Record, Run, Said, State, Word, ledger_file
+from foldmill_fabricate.plotter.ledger.reading import at_program
+from foldmill_fabricate.plotter.ledger.tables import PROGRAMS
 from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.sender import Progress
 from foldmill_fabricate.plotter.simulator import devices
@@ -200,6 +205,35 @@ def test_a_closed_cut_ends_where_it_began_and_proves_nothing(
     with pytest.raises(LedgerRefused, match="only on a person's word"):
         list(send_job(job, bench.url, bench.operator, FRONT, ledger=ledger, sheet=sheet.id))
     assert bench.operator.asked[0][1] is None
+
+
+class Unguarded(Ledger):
+    """A ledger whose compare-and-set is taken out: every program is always ready."""
+
+    def recover(self, sheet: str, number: int) -> Record:
+        return replace(self.record(sheet, number), state=State.READY)
+
+    def claim(self, sheet: str, number: int, device: str) -> Run:
+        with self._engine.begin() as at:
+            mine = at_program(sheet, number)
+            at.execute(update(PROGRAMS).where(mine).values(state=State.READY.value))
+        return super().claim(sheet, number, device)
+
+
+@pytest.mark.parametrize("guarded", [True, False])
+def test_it_is_the_ledgers_guard_that_keeps_strokes_from_being_cut_twice(
+    guarded: bool, job: Job, bench: Bench, tmp_path: Path
+) -> None:
+    ledger = (Ledger if guarded else Unguarded)(tmp_path / "ledger.sqlite")
+    with pytest.raises(Stopped):
+        list(send_job(job, bench.url, bench.operator, FRONT, stopping(30), ledger=ledger))
+    (sheet,) = ledger.open_sheets()
+    bench.operator.words = [None]
+    with suppress(LedgerRefused):
+        list(send_job(job, bench.url, bench.operator, FRONT, ledger=ledger, sheet=sheet.id))
+    ledger.close()
+    drawn = bench.strokes(Face.FRONT)
+    assert (len({*drawn}) == len(drawn)) is guarded
 
 
 def test_without_a_word_a_program_in_doubt_is_left_as_it_is(

@@ -144,8 +144,9 @@ class Asked(Proving):
         if self._asked is not None:
             return
         session = self.session
-        while session.hearing or session.proving:  # two answers at once are an error
-            session.wait_a_byte()
+        limit = session.clock.now() + SILENCE / 2  # half an answer may be the last there is
+        while (session.hearing or session.proving) and session.clock.now() < limit:
+            session.wait_a_byte(limit)  # two answers at once are an error
         session.ask_error() if of_error else session.ask_free()
         self._of_error, self._proved = of_error, self.witness.executed
         self._asked, self._asked_when = self.sent, session.clock.now()
