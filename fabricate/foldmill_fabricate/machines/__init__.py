@@ -166,7 +166,7 @@ class Serial(Preset):
     rate), by XON and XOFF, by its RTS or DTR line, when asked by ESC.B or ENQ, by the ok of GRBL,
     or by the status of GP-GL.
     """
-    bytes_per_second: float = Field(300.0, gt=0, json_schema_extra=INFORMATION)
+    bytes_per_second: float = Field(300.0, gt=0)
     """With the handshake ``paced``: how fast bytes may come in on average."""
     buffer: int = Field(1024, ge=64)
     """Bytes the machine holds before it overruns."""

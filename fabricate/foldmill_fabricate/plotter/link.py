@@ -16,11 +16,12 @@ import serial
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock
 from foldmill_fabricate.plotter.errors import PortUnavailable
-from foldmill_fabricate.plotter.session import READ_SLICE
 
 SIMULATORS = "foldmill_fabricate.plotter.simulator"
 """Package in which pyserial finds ``protocol_sim``."""
 
+_TIMEOUT = 0.1
+"""s that a read waits."""
 _WRITE_PATIENCE = 60.0
 """s that a machine may hold by XOFF before a write fails."""
 
@@ -42,7 +43,7 @@ def open_port(url: str, machine: Machine) -> Any:
             baudrate=machine.serial.baud,
             xonxoff=machine.serial.handshake == "xon-xoff",
             rtscts=machine.serial.handshake == "rts-cts",
-            timeout=READ_SLICE,
+            timeout=_TIMEOUT,
             write_timeout=None if url.startswith("rfc2217://") else _WRITE_PATIENCE,
             exclusive=True,
         )

@@ -38,7 +38,7 @@ class Session:
     def __init__(self, port: Any, machine: Machine, clock: Clock, wish: Wish | None = None) -> None:
         self.port, self.machine, self.clock = port, machine, clock
         self.wish = wish or Wish()
-        if port.timeout is None:
+        if port.timeout is None or port.timeout > READ_SLICE:
             port.timeout = READ_SLICE  # a read that waits for ever knows no deadline
         self.byte_time = 10 / machine.serial.baud
         self.buffer = machine.serial.buffer
