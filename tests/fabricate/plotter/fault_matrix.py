@@ -94,7 +94,7 @@ EXPECTED = {
     "lever": "C C B B B B B B B",
     "power": "C C B B B B B B B",
     "power, 3 s": "C C B B B B B B B",
-    "slow": "C C B B B A B A B",
+    "slow": "C C B B B B B A B",
     "slow, a little": "C C A A A A A A C",
 }
 """The end of every cell; it is the same at the three places."""
