@@ -136,6 +136,7 @@ class Asked(Proving):
         last = bisect_right(sums.bytes, room) - 1
         if last >= len(sums.parts):
             return self._cover  # all the rest fits
+        last = max(min(last, sums.reach(self._done)), number + 1)
         while last > number + 1 and not sums.may_follow(self._done, last - 1):
             last -= 1
         return max(0, sums.bytes[last] - sums.bytes[number + 1])

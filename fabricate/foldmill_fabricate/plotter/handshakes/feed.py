@@ -6,6 +6,7 @@ most three seconds of motion or one stroke, whichever is longer: so that stoppin
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from itertools import accumulate
 from typing import Protocol
 
@@ -62,3 +63,16 @@ class Sums:
         if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
             return True
         return self.parts[done].stroke == self.parts[number].stroke
+
+    def reach(self, done: int) -> int:
+        """Return a number up to which units may follow at most; little above the truth.
+
+        A large buffer holds thousands that may not, and looking at each takes longer than cutting.
+        """
+        short = bisect_right(self.seconds, self.seconds[done] + IN_FLIGHT) + 1
+        if done >= len(self.parts):
+            return short
+        stroke, last = self.parts[done].stroke, max(done, short)
+        while last < len(self.parts) and self.parts[last].stroke == stroke:
+            last += 1
+        return last + 1
