@@ -32,10 +32,10 @@ from foldmill import installed
 from foldmill_fabricate.hooks import MACHINES
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import RealClock
+from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.program import instructions
 from foldmill_fabricate.plotter.sender import as_sent, send
-from foldmill_fabricate.plotter.session import reserve
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.plotter.simulator.servers import serve_pty
 from foldmill_fabricate.plotter.simulator.trial import fine_lines

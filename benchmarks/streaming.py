@@ -10,12 +10,13 @@ lost         bytes dropped by a full buffer
 same         whether the machine got exactly the bytes of the program
 fullest      highest occupancy of the buffer
 utilisation  time in which the line was busy, of that and the time in which it stood idle although
-             the next whole instruction had room (free bytes less those on the wire at least its
-             length and the reserve; on XON/XOFF: the machine did not hold)
+             the next whole instruction could have gone (free bytes less those on the wire at least
+             its length and the reserve; on XON/XOFF: the machine did not hold; and at most three
+             seconds of motion, or one stroke, not begun by the machine)
 payload      HP-GL among all bytes sent
 motors       time in which the machine moved, of all
 
-Where motion is the limit and the buffer large, ESC.B leaves room unused on purpose: at most three
+Where motion is the limit and the buffer large, room is left unused on purpose: at most three
 seconds of motion are in flight, so that stopping means something. The answer's own way, 6-10 ms an
 instruction, is hidden by lending up to 16 bytes of the reserve. The motors never wait. A machine
 that is not asked at all ("none") is fed by the motion model, with caution, and so does wait.
@@ -54,6 +55,10 @@ CASES = [
     Case("esc-b", 9600, 1024, "motion"),
     Case("esc-b", 115200, 1024, "line"),
     Case("esc-b", 115200, 1024, "motion"),
+    Case("esc-b", 9600, 15_358, "line"),
+    Case("esc-b", 9600, 15_358, "motion"),
+    Case("esc-b", 115200, 15_358, "line"),
+    Case("esc-b", 115200, 15_358, "motion"),
     Case("xon-xoff", 9600, 255, "line"),
     Case("xon-xoff", 9600, 255, "motion"),
     Case("xon-xoff", 115200, 1024, "line"),

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 from foldmill_fabricate.passes import Face, ProgramFile
 from foldmill_fabricate.plotter.errors import LedgerRefused
+from foldmill_fabricate.plotter.languages import made_ready
 from foldmill_fabricate.plotter.ledger import Ledger, Program, SheetRecord, State
-from foldmill_fabricate.plotter.program import ready
-from foldmill_fabricate.plotter.sender import as_sent
 from foldmill_fabricate.sending import Job
 
 NEW = "new"
@@ -81,5 +80,5 @@ def _told(sheet: SheetRecord) -> str:
 
 def _program(job: Job, part: ProgramFile) -> Program:
     machine = job.plan.machine
-    strokes = ready(as_sent(job.programs[part.name], machine), machine).strokes
+    strokes = made_ready(job.programs[part.name], machine).strokes
     return Program(part.name, part.face, part.sha256, strokes)

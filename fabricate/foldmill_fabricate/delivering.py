@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate import gates, recovery, trials
@@ -33,6 +34,7 @@ from foldmill_fabricate.plotter.ledger import (
 )
 from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
+from foldmill_fabricate.plotter.transcript import recorded
 from foldmill_fabricate.sending import Job
 
 __all__ = ["NEW", "Sent", "Tell", "choose_sheet", "own_ledger", "send_job"]
@@ -75,18 +77,24 @@ def send_job(
     ledger: Ledger | None = None,
     sheet: str = "",
     test_cut: bool = False,
+    transcript: Path | None = None,
 ) -> Iterator[Sent]:
     """Send the programs of these faces in order of work, yielding after each.
 
     url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction.
     ledger : by default the user's own. sheet : the id of a sheet that is begun, or NEW; by default
     the one that waits for these faces, else a new one. test_cut : cut one in the waste for each
-    process without asking, whether the preset is tested or not. Raises CannotSend where the
-    operator says no or answers what cannot be, LedgerRefused where the sheet is in doubt,
-    PlotterError where the line fails. It ends early after a program that is not done.
+    process without asking, whether the preset is tested or not. transcript : a file for what goes
+    over the wire. Raises CannotSend where the operator says no or answers what cannot be,
+    LedgerRefused where the sheet is in doubt, PlotterError where the line fails. It ends early
+    after a program that is not done.
     """
     book = ledger or own_ledger(url)
-    with held(url) as device, link.open_port(url, job.plan.machine) as port:
+    with (
+        held(url) as device,
+        link.open_port(url, job.plan.machine) as opened,
+        recorded(opened, link.clock_of(opened), transcript) as port,
+    ):
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
         bench = _Bench(job, operator, book, laid, port, device, test_cut)
         bench.find_fit()

@@ -15,11 +15,11 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import ProgramFile, SetUp
 from foldmill_fabricate.plotter import resume
 from foldmill_fabricate.plotter.errors import LedgerRefused
+from foldmill_fabricate.plotter.languages import made_ready, spoken
 from foldmill_fabricate.plotter.ledger import Record, Said, Word
-from foldmill_fabricate.plotter.program import PART, ready
+from foldmill_fabricate.plotter.program import PART
 from foldmill_fabricate.plotter.program import Job as Program
 from foldmill_fabricate.plotter.resume import Start
-from foldmill_fabricate.plotter.sender import as_sent
 from foldmill_fabricate.plotter.standing import Stand, stand
 from foldmill_fabricate.sending import Job
 
@@ -56,6 +56,8 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
 
 def _where(program: Program, record: Record, machine: Machine) -> str:
     """Say where doubtful strokes are to be looked for: all of them, or the first and the last."""
+    if machine.language != "hpgl":
+        return ""
     strokes = [k for k in record.doubtful if resume.vertices(program, k)]
     shown = strokes if len(strokes) <= _FEW else [strokes[0], strokes[-1]]
     return " ".join(_line(program, k, machine) for k in shown)
@@ -71,7 +73,7 @@ def _line(program: Program, stroke: int, machine: Machine) -> str:
 def program_of(job: Job, part: ProgramFile) -> Program:
     """Return a program as the sender sees it."""
     machine = job.plan.machine
-    return ready(as_sent(job.programs[part.name], machine), machine)
+    return made_ready(job.programs[part.name], machine)
 
 
 def _told(program: Program, acked: int, sent: int, found: Stand, machine: Machine) -> str:
@@ -143,6 +145,6 @@ def start_of(job: Job, part: ProgramFile, record: Record) -> Start:
         )
     if not job.plan.machine.tools.host_offset:
         return Start(record.first, record.vertex, record.overlap)
-    again = resume.lead_in(program, record.first)
+    again = spoken(job.plan.machine).lead_in(program, record.first)
     inside = record.vertex if again else 0  # a lead-in itself is made from its start
     return Start(record.first, inside, record.overlap, again)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -24,8 +25,10 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.operators import SimulatedOperator, Verdict
 from foldmill_fabricate.passes import Face, Plan, ProgramFile
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.plotter import resume
 from foldmill_fabricate.plotter.clock import RealClock
 from foldmill_fabricate.plotter.errors import LedgerRefused, Stopped
+from foldmill_fabricate.plotter.languages import made_ready
 from foldmill_fabricate.plotter.ledger import Ledger, Record, Said, State, Word, ledger_file
 from foldmill_fabricate.plotter.resume import Start
 from foldmill_fabricate.plotter.sender import Progress
@@ -192,16 +195,29 @@ def joined(strokes: Sequence[object]) -> set[tuple[tuple[int, int], ...]]:
     return pieces  # type: ignore[return-value]
 
 
-def test_a_closed_cut_ends_where_it_began_and_proves_nothing(
-    job: Job, bench: Bench, ledger: Ledger
-) -> None:
+def test_a_closed_cut_ends_where_it_began_and_proves_nothing(job: Job) -> None:
     """The machine stands at the seam of a hole: cut, or still to be cut? A person must look."""
+    front = made_ready(job.programs["front.hpgl"], job.plan.machine)
+    seam, *_, end = resume.vertices(front, 0)
+    assert seam == end
+    assert resume.locate(front, 0, 1, seam) is None
+    inside = resume.vertices(front, 0)[3]
+    assert resume.locate(front, 0, 1, inside) == Start(0, 3)
+
+
+def test_it_is_the_ledgers_guard_that_keeps_strokes_from_being_cut_twice(
+    guarded: bool, job: Job, bench: Bench, tmp_path: Path
+) -> None:
+    ledger = (Ledger if guarded else Unguarded)(tmp_path / "ledger.sqlite")
     with pytest.raises(Stopped):
-        list(send_job(job, bench.url, bench.operator, FRONT, stopping(20), ledger=ledger))
+        list(send_job(job, bench.url, bench.operator, FRONT, stopping(30), ledger=ledger))
     (sheet,) = ledger.open_sheets()
-    with pytest.raises(LedgerRefused, match="only on a person's word"):
+    bench.operator.words = [None]
+    with suppress(LedgerRefused):
         list(send_job(job, bench.url, bench.operator, FRONT, ledger=ledger, sheet=sheet.id))
-    assert bench.operator.asked[0][1] is None
+    ledger.close()
+    drawn = bench.strokes(Face.FRONT)
+    assert (len({*drawn}) == len(drawn)) is guarded
 
 
 def test_without_a_word_a_program_in_doubt_is_left_as_it_is(

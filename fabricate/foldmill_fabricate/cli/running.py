@@ -34,6 +34,7 @@ class PassChoice(StrEnum):
 def add_to(app: typer.Typer) -> None:
     """Add these commands to the application."""
     app.command()(send)
+    app.command()(plotters)
     app.command()(simulate)
     app.command()(demo)
 
@@ -77,6 +78,9 @@ def send(
     draw: Annotated[
         Path | None, typer.Option(help="With sim://: a folder for pictures of what was cut.")
     ] = None,
+    transcript: Annotated[
+        Path | None, typer.Option(help="A file for what goes over the wire, one JSON line each.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Verify a job folder again and send it, prompting before each set-up.
@@ -104,7 +108,16 @@ def send(
     bar = ProgressLine(as_json)
     with stopping_on_signals():
         hands = operator(port, yes, word)
-        parts = send_job(job, port, hands, faces, bar.tell, sheet=sheet, test_cut=test_cut)
+        parts = send_job(
+            job,
+            port,
+            hands,
+            faces,
+            bar.tell,
+            sheet=sheet,
+            test_cut=test_cut,
+            transcript=transcript,
+        )
         for sent in parts:
             if not done:
                 bar.end(f"Sheet {sent.sheet}")
@@ -129,6 +142,35 @@ def send(
             "The job is not finished; look at the sheet before anything is cut again.", err=True
         )
         raise typer.Exit(1)
+
+
+def plotters(
+    ask: Annotated[
+        list[str] | None,
+        typer.Option(help="A port to open and ask who is there; repeatable. Never one at work."),
+    ] = None,
+    machine: Annotated[
+        str, typer.Option(help="The profile by which it is opened: baud rate and language.")
+    ] = "generic-hpgl-600",
+    as_json: AsJson = False,
+) -> None:
+    """List the serial ports; open and ask only those named by --ask.
+
+    A question that meets a machine at work becomes a part of its program, so none is asked unless
+    you say at which port.
+    """
+    from foldmill_fabricate import shelf
+    from foldmill_fabricate.plotter import ports
+
+    profile = shelf.machine(machine)
+    named = ask or []
+    rows = [row for row in ports.listed() if row.address not in named]
+    rows += [ports.asked(address, profile) for address in named]
+    lines = [
+        f"{row.address}  {row.title}  {row.state}{': ' + row.answer if row.answer else ''}"
+        for row in rows
+    ]
+    say(as_json, [vars(row) for row in rows], "\n".join(lines) or "There are no serial ports.")
 
 
 def _one(read: list[tuple[float, float]]) -> tuple[float, float] | None:

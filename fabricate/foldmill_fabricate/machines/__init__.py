@@ -182,10 +182,15 @@ class Serial(Preset):
     """How the machine is talked to."""
 
     baud: int = 9600
-    handshake: Literal["none", "xon-xoff", "rts-cts", "dtr", "esc-b", "enq-ack"]
-    """How the machine says that it has room: not at all, by XON and XOFF, by its RTS or DTR line,
-    or when asked by ESC.B or ENQ.
+    handshake: Literal[
+        "none", "paced", "xon-xoff", "rts-cts", "dtr", "esc-b", "enq-ack", "grbl", "gp-gl"
+    ]
+    """How the machine says that it has room: not at all (paced: nor does it bear the line's full
+    rate), by XON and XOFF, by its RTS or DTR line, when asked by ESC.B or ENQ, by the ok of GRBL,
+    or by the status of GP-GL.
     """
+    bytes_per_second: float = Field(300.0, gt=0)
+    """With the handshake ``paced``: how fast bytes may come in on average."""
     buffer: int = Field(1024, ge=64)
     """Bytes the machine holds before it overruns."""
     answers: bool = True

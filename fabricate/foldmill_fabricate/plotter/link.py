@@ -1,6 +1,7 @@
 """Open a port by any address that pyserial knows, and ``sim://``; say plainly why it cannot be.
 
-Modem lines are never touched: pseudo-terminals and many adapters have none.
+Modem lines are touched only where the profile's handshake is one: pseudo-terminals and many
+adapters have none.
 """
 
 from __future__ import annotations
@@ -15,11 +16,12 @@ import serial
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock, RealClock
 from foldmill_fabricate.plotter.errors import PortUnavailable
-from foldmill_fabricate.plotter.session import READ_SLICE
 
 SIMULATORS = "foldmill_fabricate.plotter.simulator"
 """Package in which pyserial finds ``protocol_sim``."""
 
+_TIMEOUT = 0.1
+"""s that a read waits."""
 _WRITE_PATIENCE = 60.0
 """s that a machine may hold by XOFF before a write fails."""
 
@@ -40,7 +42,8 @@ def open_port(url: str, machine: Machine) -> Any:
             url,
             baudrate=machine.serial.baud,
             xonxoff=machine.serial.handshake == "xon-xoff",
-            timeout=READ_SLICE,
+            rtscts=machine.serial.handshake == "rts-cts",
+            timeout=_TIMEOUT,
             write_timeout=None if url.startswith("rfc2217://") else _WRITE_PATIENCE,
             exclusive=True,
         )
@@ -71,6 +74,11 @@ def _sentence(url: str, error: Exception) -> str:
         return _REASONS[number](url)
     detail = str(error).rstrip(".")
     return detail + "." if "://" in url else f"The port {url} cannot be opened: {detail}."
+
+
+def explained(url: str, number: int) -> str:
+    """Return the sentence for a system error at a port."""
+    return _REASONS[number](url)
 
 
 def _number(error: Exception) -> int | None:

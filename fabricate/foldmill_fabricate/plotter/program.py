@@ -99,7 +99,9 @@ class Instruction:
     at: XY | None
     """Where it leaves the tool, steps; None before the first motion."""
     asks: bool = False
-    """Whether it is a question of the sender's own, answered with that place."""
+    """Whether it is a question of the sender's own, answered when all before it is executed."""
+    down: bool = False
+    """Whether the tool is in the sheet after it."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +113,8 @@ class Job:
     """Where the tool stands at the end, steps; None where it never moves."""
     strokes: int
     """How many there are, up to the last that draws."""
+    lift: bytes = b"PU;"
+    """What lifts the tool and does nothing else."""
 
     @property
     def data(self) -> bytes:
@@ -152,7 +156,8 @@ class _Timer:
                     f"Instruction {number} ({_shown(piece)}) holds something that is no number, or "
                     "half a pair of coordinates. Write the program again."
                 ) from None
-        return Instruction(piece, seconds, self.stroke, self.at if self.moved else None)
+        at = self.at if self.moved else None
+        return Instruction(piece, seconds, self.stroke, at, down=self.down)
 
     def _follow(self, name: bytes, given: list[float]) -> float:
         if name in _MOVES:

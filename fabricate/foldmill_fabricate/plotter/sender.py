@@ -8,43 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any, Protocol
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
-from foldmill_fabricate.plotter.errors import (
-    PlotterError,
-    ProgramRefused,
-    Stopped,
-)
+from foldmill_fabricate.plotter.endings import Status as Status
+from foldmill_fabricate.plotter.errors import PlotterError, Stopped
+from foldmill_fabricate.plotter.handshakes import choice
+from foldmill_fabricate.plotter.handshakes.feed import Feed
+from foldmill_fabricate.plotter.languages import longest, made_ready, spoken
 from foldmill_fabricate.plotter.link import clock_of
-from foldmill_fabricate.plotter.pacing import SLACK, Pace, pace
-from foldmill_fabricate.plotter.program import XY, Job, checked, ready, rechunk
-from foldmill_fabricate.plotter.resume import Start, rest
-from foldmill_fabricate.plotter.session import PATIENCE, Session, longest
-from foldmill_fabricate.plotter.witness import Witness, is_off, position, watched
+from foldmill_fabricate.plotter.program import XY, Job
+from foldmill_fabricate.plotter.resume import Start
+from foldmill_fabricate.plotter.session import Session
+from foldmill_fabricate.plotter.wish import Wish
 
-_OE = {
-    1: "an instruction it does not know",
-    2: "a wrong number of parameters",
-    3: "a parameter out of range",
-    5: "an unknown character set",
-    6: "a position beyond its limits",
-    8: "its pinch wheels up",
-}
 FROM_THE_START = Start()
-
-
-class Status(StrEnum):
-    """How a delivery ended."""
-
-    EXECUTED = "executed"
-    """the machine has answered, in order, that all of it is done"""
-    UNCONFIRMED = "sent, not confirmed"
-    """all bytes are sent; nobody knows whether they were executed"""
-    FAULT = "executed with a fault"
-    """the machine has answered, and reports an error or another place than the program's end"""
 
 
 @dataclass(frozen=True)
@@ -63,14 +42,14 @@ class Delivery:
 
     status: Status
     bytes: int
-    """of HP-GL sent"""
+    """of the program sent"""
     instructions: int
     seconds: float
     """by the clock, from opening to the last answer"""
     position: XY | None = None
-    """where the machine says its tool is, steps"""
+    """where the machine says its tool is: steps, of GRBL mm"""
     error: int | None = None
-    """what OE answered; 0 for none"""
+    """the error it reports; 0 for none"""
     fault: str = ""
     """what is wrong, a sentence; empty for nothing"""
 
@@ -96,7 +75,7 @@ def as_sent(program: bytes, machine: Machine, buffer: int | None = None) -> byte
     buffer : bytes; the profile's where not given. Raises ProgramRefused.
     """
     limit = longest(buffer or machine.serial.buffer, machine)
-    return rechunk(checked(program, machine), limit)
+    return spoken(machine).as_sent(program, machine, limit)
 
 
 def send(
@@ -107,22 +86,19 @@ def send(
     progress: Callable[[Progress], None] | None = None,
     start: Start = FROM_THE_START,
     book: Book | None = None,
+    wish: Wish | None = None,
 ) -> Delivery:
     """Send a program and wait until the machine says it is executed, or cannot say.
 
     port : an open port of ``open_port``; clock : the port's own where not given; start : where it
-    is taken up again; book : is told of every stroke before a byte of it leaves. On any exception
-    the machine is stopped first, as far as its profile allows. Raises ProgramRefused before
-    anything is sent, Stopped on Ctrl-C, NoAnswer for a machine that has gone silent, PlotterError
-    for a port that fails; their text says what the operator has to do.
+    is taken up again; book : is told of every stroke before a byte of it leaves; wish : by which
+    another thread pauses or stops it. On any exception the machine is stopped first, as far as its
+    profile allows. Raises ProgramRefused before anything is sent, Stopped on Ctrl-C, NoAnswer for a
+    machine that has gone silent, PlotterError for a port that fails; their text says what the
+    operator has to do.
     """
-    if machine.serial.handshake == "esc-b" and not machine.serial.answers:
-        raise ProgramRefused(
-            f"{machine.slug} is to be asked for its free bytes (handshake esc-b), but does not "
-            'answer (answers = false). Use the handshake "xon-xoff" or "none".'
-        )
-    ready(as_sent(program, machine), machine)  # refused before a byte leaves
-    session = Session(port, machine, clock or clock_of(port))
+    made_ready(program, machine)  # refused before a byte leaves
+    session = choice.session(port, machine, clock or clock_of(port), wish)
     try:
         return _Delivery(session, book or NoBook()).run(
             program, start, progress or (lambda _: None)
@@ -138,20 +114,6 @@ def send(
         raise
 
 
-def whereabouts(port: Any, machine: Machine, clock: Clock | None = None) -> XY | None:
-    """Have a machine drop what it holds, and say where its tool stands, steps.
-
-    None where it cannot drop a half-sent instruction, or does not answer: then nothing is sent.
-    """
-    if machine.serial.handshake != "esc-b":
-        return None
-    session = Session(port, machine, clock or clock_of(port))
-    session.open()
-    session.write(b"OA;")
-    answer = session.place(session.clock.now() + PATIENCE)
-    return position(answer) if answer else None
-
-
 class _Delivery:
     """One program on its way."""
 
@@ -162,72 +124,40 @@ class _Delivery:
         session, began = self._session, self._session.clock.now()
         session.open()
         machine = session.machine
-        job = ready(as_sent(program, machine, session.buffer), machine)
+        job = made_ready(program, machine, session.buffer)
         if not start.is_fresh:
-            job = rest(job, machine, longest(session.buffer, machine), start)
-        if machine.serial.answers:
-            job = watched(job)
-        feed, witness = pace(session, job), Witness(session, job)
-        self._stream(job, feed, witness, tell)
-        feed.finish()
-        status, place, error, fault = self._confirm(job, feed, witness)
-        if status is Status.EXECUTED:
-            self._book.advance(job.strokes, job.strokes)
+            limit = longest(session.buffer, machine)
+            job = spoken(machine).rest(job, machine, limit, start)
+        session.lift = job.lift
+        job = choice.prepared(job, machine)
+        feed = choice.feed(session, job)
+        self._stream(job, feed, tell)
+        self._book.advance(job.strokes, feed.acked)
+        end = feed.confirm()
+        certain = job.strokes if end.status is Status.EXECUTED else feed.acked
+        self._book.advance(job.strokes, certain)
         count = sum(not part.asks for part in job.parts)
         seconds = session.clock.now() - began
-        return Delivery(status, len(job.data), count, seconds, place, error, fault)
+        return Delivery(
+            end.status, len(job.data), count, seconds, end.position, end.error, end.fault
+        )
 
-    def _stream(
-        self, job: Job, feed: Pace, witness: Witness, tell: Callable[[Progress], None]
-    ) -> None:
+    def _stream(self, job: Job, feed: Feed, tell: Callable[[Progress], None]) -> None:
         total, count = len(job.data), sum(not part.asks for part in job.parts)
         sent = done = 0
         for number, part in enumerate(job.parts):
+            if number == 0 or not job.parts[number - 1].down:
+                self._pause(feed)
             feed.wait_for(number)
-            self._book.advance(min(part.stroke + 1, job.strokes), witness.acked)
+            self._book.advance(min(part.stroke + 1, job.strokes), feed.acked)
             self._session.write(part.data)
             feed.written(number)
-            witness.written(number)
             if not part.asks:
                 sent, done = sent + len(part.data), done + 1
                 tell(Progress(sent, total, done, count))
 
-    def _confirm(
-        self, job: Job, feed: Pace, witness: Witness
-    ) -> tuple[Status, XY | None, int | None, str]:
-        """Ask what is answered in order: where the tool is, and whether anything went wrong."""
-        session = self._session
-        if not session.machine.serial.answers:
-            return Status.UNCONFIRMED, None, None, ""
-        session.write(b"OA;")
-        deadline = session.clock.now() + PATIENCE + SLACK * feed.ahead
-        heard = witness.finish(deadline)
-        self._book.advance(job.strokes, witness.acked)
-        place = session.place(deadline) if heard else None
-        if place is None:
-            return Status.UNCONFIRMED, None, None, ""
-        session.write(b"OE;")
-        found = session.answer(session.clock.now() + PATIENCE)
-        if found is None:
-            return Status.UNCONFIRMED, position(place), None, ""
-        error = int(found) if found.isdigit() else None
-        lost = session.io_error() if session.controls else 0
-        fault = _fault(job, place, found, lost)
-        return Status.FAULT if fault else Status.EXECUTED, position(place), error, fault
-
-
-def _fault(job: Job, place: str, error: str, lost: int | None) -> str:
-    if error != "0":
-        meaning = _OE.get(int(error), "an error") if error.isdigit() else "something else"
-        return f"The machine reports error {error}: {meaning}."
-    if lost:
-        return f"The machine reports that bytes were lost or garbled on the line (error {lost})."
-    at = position(place)
-    if at is None:
-        return f"The machine answered {place!r} where it should have told its position."
-    if job.end and is_off(at, job.end):
-        return (
-            f"The tool stands at {at[0]:g}, {at[1]:g} steps, but the program ends at "
-            f"{job.end[0]:g}, {job.end[1]:g}."
-        )
-    return ""
+    def _pause(self, feed: Feed) -> None:
+        """Send nothing, tool up, for as long as a person wants that."""
+        while self._session.wish.paused:
+            feed.idle()
+            self._session.heed()

@@ -1,171 +1,131 @@
-"""A conversation with one machine: open it, ask it, write to it, stop it.
+"""A conversation with one machine: the port, the clock, the profile, and what all handshakes share.
 
-Device control (ESC . letter) is spoken only to machines whose handshake is ESC.B; a cutter that
-does not know it might take the letters for HP-GL. Never two of those questions at once:
-overlapping output is an I/O error of the machine. What HP-GL asks is answered in its own time, and
-told apart by its commas.
+What is written leaves the computer byte by byte; ``line_free`` is when the last of it will have
+left, so that silence is told from a long way.
 """
 
 from __future__ import annotations
 
-from collections import deque
+from math import inf
 from typing import Any
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
-from foldmill_fabricate.plotter.errors import NoAnswer
+from foldmill_fabricate.plotter.errors import Stopped
+from foldmill_fabricate.plotter.wish import Wish
 
-_FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
-_FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
-_MET = 10
-"""I/O error of a question that met another answer: it was dropped, and nothing else."""
-_PAUSED = 16 | 32
-"""Bits of the extended status: paused by a key, or a lever up."""
-
+SILENCE = 1.0
+"""s without an answer that is due at once, after the question has left, that are silence."""
 PATIENCE = 5.0
-"""s of silence that are believed to be silence, beyond what the line and the motion take."""
-_NOISE = bytes((0x11, 0x13, 0x0A))
-"""XON, XOFF and line feed among the answers."""
-_SMALLEST, _LARGEST = 64, 1 << 26
-"""bytes; a buffer outside is a misread answer."""
-
-READ_SLICE = 0.1
+"""s that a machine may be later than the motion model, besides its multiple, before it is given up.
+"""
+READ_SLICE = 0.02
 """s that one read waits at most; deadlines are counted by the clock."""
+_SHORT = 0.002
+"""s between two looks shortly before a deadline."""
+_LOOK = 0.25
+"""s between two looks at a port while nothing else is to be done."""
 
 BY_HAND = "Stop the machine by hand: it may still be cutting what it has been given."
-
-
-def reserve(buffer: int) -> int:
-    """Return the bytes of a buffer that are never filled: real machines overflow before the end."""
-    return min(128, buffer // 4)
-
-
-def longest(buffer: int, machine: Machine) -> int:
-    """Return the longest instruction that is sent at once, bytes.
-
-    A third of what may be filled: while one is on the line and one in the buffer, a third can be
-    promised, and so the line never waits for an answer.
-    """
-    return min(machine.dialect.max_instruction, (buffer - reserve(buffer)) // 3)
 
 
 class Session:
     """The port, the clock and the machine's profile, and what has been learnt since."""
 
-    def __init__(self, port: Any, machine: Machine, clock: Clock) -> None:
+    ends = b"\r"
+    """What ends an answer."""
+
+    def __init__(self, port: Any, machine: Machine, clock: Clock, wish: Wish | None = None) -> None:
         self.port, self.machine, self.clock = port, machine, clock
-        if port.timeout is None:
+        self.wish = wish or Wish()
+        if port.timeout is None or port.timeout > READ_SLICE:
             port.timeout = READ_SLICE  # a read that waits for ever knows no deadline
         self.byte_time = 10 / machine.serial.baud
         self.buffer = machine.serial.buffer
         """Bytes the machine holds: as its profile says, then as it says itself."""
-        self.round_trip = 0.0
-        """s from a question to its answer on a line that is otherwise still; 0 for not known."""
         self.whole = True
-        """Whether all that was written so far ends with a whole instruction."""
+        """Whether all that was written so far ends with a whole unit."""
+        self.lift = b""
+        """What lifts the tool, of the program that is sent."""
+        self.line_free = clock.now()
         self._heard = b""
-        self._numbers: deque[str] = deque()
-        self._places: deque[str] = deque()
-        self.places = 0
-        """Positions that were heard so far."""
-
-    @property
-    def controls(self) -> bool:
-        """Whether the machine understands device control."""
-        return self.machine.serial.handshake == "esc-b"
 
     def open(self) -> None:
         """Find the machine ready; raises NoAnswer where it should answer and does not."""
-        self._forget_answers()
-        if not self.controls:
-            return
-        self.port.write(_FORGET)
-        asked = self.clock.now()
-        if self.control(_ERROR, PATIENCE) is None:
-            raise NoAnswer(
-                f"The plotter does not answer at {self.machine.serial.baud} baud. Is it on, is the "
-                "cable the right one, and does its own setting agree with the baud rate?"
-            )
-        self.round_trip = self.clock.now() - asked
-        self.buffer = self._size()
+        self.forget_answers()
 
     def write(self, data: bytes) -> None:
-        """Write one whole instruction."""
+        """Write one whole unit."""
         self.whole = False
-        self.port.write(data)
+        self.send(data)
         self.whole = True
 
-    def ask_free(self) -> None:
-        """Ask for the free bytes; ``answer`` brings them."""
-        self.port.write(_FREE)
+    def send(self, data: bytes) -> None:
+        """Write bytes of the handshake's own."""
+        self.line_free = max(self.line_free, self.clock.now()) + len(data) * self.byte_time
+        self.port.write(data)
 
-    def control(self, question: bytes, patience: float) -> int | None:
-        """Ask by device control and wait; None for silence, or an answer that is no number."""
-        self.port.write(question)
-        text = self.answer(self.clock.now() + patience)
-        return int(text) if text is not None and text.isdigit() else None
+    def settle(self) -> None:
+        """Wait until little of what was written lies in this computer, where it is lost to sight.
 
-    def io_error(self, deadline: float | None = None) -> int:
-        """Return the machine's I/O error; 0 for none, for silence, and for questions that met."""
-        patience = PATIENCE if deadline is None else deadline - self.clock.now()
-        found = self.control(_ERROR, patience) or 0
-        return 0 if found == _MET else found
+        Raises Stopped where a person wants that.
+        """
+        most = self.machine.dialect.max_instruction * self.byte_time
+        self.rest_until(self.line_free - most)
 
-    def paused(self) -> bool:
-        """Whether somebody has paused the machine at its own keys."""
-        return bool((self.control(_STATUS, PATIENCE) or 0) & _PAUSED)
+    def rest_until(self, moment: float) -> None:
+        """Wait and listen; raises Stopped, and what a port raises that has vanished."""
+        while True:
+            self.heed()
+            self.listen()
+            now = self.clock.now()
+            if now >= moment:
+                return
+            self.clock.sleep_until(min(moment, now + _LOOK))
 
-    def answer(self, deadline: float) -> str | None:
-        """Return the next answer that is no position, without its CR; None for none by then."""
-        return self._wait_for(self._numbers, deadline)
+    def heed(self) -> None:
+        """Raise Stopped where a person wants that."""
+        if self.wish.stopped:
+            raise Stopped("Stopped.")
 
-    def answer_at_hand(self) -> str | None:
-        """Return such an answer if one has come in whole."""
-        self._listen()
-        return self._numbers.popleft() if self._numbers else None
+    def listen(self) -> None:
+        """Take what has come in."""
+        ready = self.port.in_waiting
+        if ready:
+            self._heard += self.port.read(ready)
+            self._sort()
 
-    def place(self, deadline: float) -> str | None:
-        """Return the next answer to OA; None where there is none by then."""
-        return self._wait_for(self._places, deadline)
-
-    def place_at_hand(self) -> str | None:
-        """Return an answer to OA if one has come in whole."""
-        self._listen()
-        return self._places.popleft() if self._places else None
+    def wait_a_byte(self, deadline: float = inf) -> None:
+        """Wait for the next byte, a short while, and not far beyond a deadline."""
+        self.heed()
+        left = deadline - self.clock.now()
+        if left < READ_SLICE:
+            self.clock.sleep(min(left, _SHORT))
+            self.listen()
+            return
+        came = self.port.read(1)
+        if came:
+            self._heard += came + self.port.read(self.port.in_waiting)
+            self._sort()
 
     @property
     def hearing(self) -> bool:
         """Whether an answer has begun to come in."""
-        self._listen()
+        self.listen()
         return bool(self._heard)
 
-    def _wait_for(self, answers: deque[str], deadline: float) -> str | None:
-        self._listen()
-        while not answers:
-            if self.clock.now() >= deadline:
-                return None
-            self._heard += self.port.read(1)
-            self._listen()
-        return answers.popleft()
+    def _sort(self) -> None:
+        while self.ends in self._heard:
+            line, _, self._heard = self._heard.partition(self.ends)
+            self.take(line)
 
-    def _listen(self) -> None:
-        """Sort whole answers: positions are the ones with a comma."""
-        ready = self.port.in_waiting
-        if ready:
-            self._heard += self.port.read(ready)
-        while b"\r" in self._heard:
-            line, _, self._heard = self._heard.partition(b"\r")
-            text = line.translate(None, _NOISE).decode("ascii", "replace").strip()
-            is_place = "," in text
-            self.places += is_place
-            (self._places if is_place else self._numbers).append(text)
-        self._heard = self._heard.lstrip(_NOISE)
+    def take(self, line: bytes) -> None:
+        """Take a whole answer, without its end."""
 
-    def _forget_answers(self) -> None:
+    def forget_answers(self) -> None:
+        """Drop what has come in."""
         self.port.reset_input_buffer()
         self._heard = b""
-        self._numbers.clear()
-        self._places.clear()
 
     def unsent(self) -> int | None:
         """Return the bytes still in this computer; None where the port cannot tell."""
@@ -177,29 +137,25 @@ class Session:
     def stop(self) -> str:
         """Stop the machine as far as its profile allows, and say what that means.
 
-        It discards what has not left, lifts XOFF, and lifts the tool. It never moves in x and y and
-        never sends IN.
+        It discards what has not left and lifts XOFF, then has the machine drop what it holds and
+        lift its tool. It never moves in x and y and never sends IN.
         """
         try:
             unsent = self.unsent()
             self.port.reset_output_buffer()
             self._lift_xoff()
-            if self.controls:
-                self.port.write(_FORGET + b"PU;")
-                return "The machine was told to drop what it has and to lift its tool."
-            if self.whole and unsent == 0:
-                self.port.write(b"PU;")
-            return BY_HAND
+            return self.abort(unsent)
         except Exception:  # termios has an error of its own; whatever it is, a person must act
             return BY_HAND
 
-    def _size(self) -> int:
-        found = self.control(_SIZE, PATIENCE)
-        if found is None:  # some machines tell it only when they are at rest
-            self.port.write(_FORGET_ANSWERS)
-            self.clock.sleep(self.round_trip)
-            self._forget_answers()
-        return found if found and _SMALLEST <= found <= _LARGEST else self.buffer
+    def abort(self, unsent: int | None) -> str:
+        """Stop a machine that cannot drop what it holds: lift the tool where nothing is half-sent.
+
+        unsent : bytes that had not left when the rest was discarded; None for not known.
+        """
+        if self.whole and unsent == 0 and self.lift:
+            self.port.write(self.lift)
+        return BY_HAND
 
     def _lift_xoff(self) -> None:
         if hasattr(self.port, "set_output_flow_control"):

@@ -7,10 +7,11 @@ from typing import Any
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
+from foldmill_fabricate.plotter.handshakes.hp import HpSession
 from foldmill_fabricate.plotter.link import clock_of
 from foldmill_fabricate.plotter.program import XY
-from foldmill_fabricate.plotter.session import PATIENCE, Session
-from foldmill_fabricate.plotter.witness import position
+from foldmill_fabricate.plotter.session import PATIENCE
+from foldmill_fabricate.plotter.witness import QUESTION, position
 
 
 @dataclass(frozen=True)
@@ -24,18 +25,20 @@ class Stand:
 
 
 def stand(port: Any, machine: Machine, clock: Clock | None = None) -> Stand | None:
-    """Have a machine drop what it holds, and say where its tool stands.
+    """Have a machine drop what it holds, say where its tool stands, and lift it.
 
     None where it cannot drop a half-sent instruction, or does not answer: then nothing is sent.
     """
     if machine.serial.handshake != "esc-b" or not machine.serial.answers:
         return None
-    session = Session(port, machine, clock or clock_of(port))
+    session = HpSession(port, machine, clock or clock_of(port))
     session.open()
-    session.write(b"OA;")
-    answer = session.place(session.clock.now() + PATIENCE)
-    at = position(answer) if answer else None
-    if at is None or answer is None:
+    session.write(QUESTION)
+    proof = session.proof(session.line_free + PATIENCE + machine.motion.tool_time)
+    answer = proof[0] if proof else ""
+    session.write(b"PU;")  # the stop's own may have been dropped
+    at = position(answer)
+    if at is None:
         return None
     pen = answer.split(",")[2:3]
     return Stand(at, {"0": False, "1": True}.get(pen[0].strip()) if pen else None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foldmill_fabricate.plotter.pacing import Sums
+from foldmill_fabricate.plotter.handshakes.feed import Sums
 from foldmill_fabricate.plotter.program import Instruction, Job
 
 

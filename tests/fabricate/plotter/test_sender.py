@@ -11,10 +11,13 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plotter.clock import VirtualClock
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError, ProgramRefused, Stopped
+from foldmill_fabricate.plotter.handshakes import hp
 from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Progress, Status, send
 from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.wish import Wish
+from foldmill_fabricate.plotter.witness import QUESTION
 
 Make = Callable[..., Machine]
 Plug = Callable[[Simulator], str]
@@ -81,7 +84,7 @@ def test_a_machine_that_does_not_answer_ends_as_sent_not_confirmed(
 
 def test_silence_at_the_end_is_not_taken_for_success(machine: Make, plugged: Plug) -> None:
     dying = machine(handshake="xon-xoff")
-    simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) - 9}"))
+    simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) + 2 * len(QUESTION) - 1}"))
     with open_port(plugged(simulator), dying) as port:
         delivery = send(SQUARE, port, dying)
     assert delivery.status is Status.UNCONFIRMED
@@ -129,7 +132,7 @@ def test_a_machine_that_holds_the_line_for_ever_is_given_up(machine: Make, plugg
     simulator = Simulator(held)
     simulator.pause()
     with open_port(plugged(simulator), held) as port:
-        with pytest.raises(NoAnswer, match=r"held the line.*Stop the machine by hand"):
+        with pytest.raises(NoAnswer, match=r"(held the line|not confirmed).*by hand"):
             send(LONG, port, held)
         assert port.clock.now() < 120
 
@@ -176,6 +179,56 @@ def test_ctrl_c_drops_what_waits_and_lifts_the_tool_without_moving_or_in(
     assert received.count(b"IN") == 1
     assert not simulator.device.carriage.down
     assert simulator.device.carriage.error == 0
+
+
+@pytest.mark.parametrize("forget", [b"\x1b.K", b";"])
+def test_it_is_esc_k_that_stops_what_the_machine_holds(
+    forget: bytes, machine: Make, plugged: Plug, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulator = Simulator(machine())
+    short = b"IN;SP1;VS10;" + b"".join(b"PU%d,0;PD%d,400;" % (x, x) for x in range(0, 9000, 40))
+    with open_port(plugged(simulator), machine()) as port:
+        monkeypatch.setattr(hp, "_FORGET", forget)
+
+        def stop(progress: Progress) -> None:
+            if progress.instructions == 90:
+                raise KeyboardInterrupt
+
+        with pytest.raises(Stopped):
+            send(short, port, machine(), progress=stop)
+        cut = len(simulator.sheet.seen(Face.FRONT))
+        port.clock.sleep(60)
+        simulator.advance()
+    more = len(simulator.sheet.strokes[Face.FRONT]) - cut
+    assert (more == 0) is (forget == b"\x1b.K")
+
+
+@pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff", "none"])
+def test_a_person_pauses_where_the_tool_is_up_and_goes_on(
+    handshake: str, machine: Make, plugged: Plug
+) -> None:
+    cutter, wish = machine(handshake=handshake), Wish()
+    seen: list[bool] = []
+
+    class Lunch(VirtualClock):
+        def sleep_until(self, moment: float) -> None:
+            super().sleep_until(moment)
+            if self.now() > 600 and wish.paused:
+                seen.append(simulator.device.carriage.down)
+                wish.go_on()
+
+    simulator = Simulator(cutter, clock=Lunch())
+    with open_port(plugged(simulator), cutter) as port:
+
+        def pause(progress: Progress) -> None:
+            if progress.instructions == 40:
+                wish.pause()
+
+        program = LONG[: LONG.index(b"PU3000")]
+        delivery = send(program, port, cutter, progress=pause, wish=wish)
+    assert seen == [False]
+    assert delivery.status is Status.EXECUTED
+    assert delivery.seconds > 600
 
 
 @pytest.mark.parametrize("handshake", ["none", "xon-xoff"])

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+
+QUESTIONS = re.compile(rb"(?:O[AE];)+")
+"""What senders ask between instructions."""
+MOST_IN_FLIGHT = 3.0
+"""s of motion."""
 
 
 @dataclass
@@ -33,18 +39,58 @@ class Use:
 
 
 class Gauge:
-    """Knows the program that comes, and so whether its next instruction has room.
+    """Knows the program that comes, and so whether its next instruction may go.
 
-    An instruction has room when the bytes free, less those on the line, are at least its length
-    and the reserve; on an XON/XOFF line also whenever the machine does not hold.
+    It may when it has room: the bytes free, less those on the line, are at least its length and the
+    reserve; on an XON/XOFF line also whenever the machine does not hold. And when what the machine
+    has not begun, with it, is at most three seconds of motion or within one stroke: more is held
+    back on purpose. Questions of a sender between instructions are none.
     """
 
-    def __init__(self, instructions: Sequence[bytes], reserve: int) -> None:
+    def __init__(
+        self,
+        instructions: Sequence[bytes],
+        reserve: int,
+        motion: Sequence[tuple[float, int]] = (),
+    ) -> None:
+        """Take the program; motion : the seconds and the stroke of each instruction, if known."""
         self.use = Use()
-        self._needs = [len(each) + reserve for each in instructions]
-        self._ends = list(accumulate(len(each) for each in instructions))
+        self._lengths = [len(each) for each in instructions]
+        self._reserve = reserve
+        self._seconds = [0.0, *accumulate(seconds for seconds, _ in motion)]
+        self._strokes = [stroke for _, stroke in motion]
+        self._ends = [0]
+        """Bytes of program written up to the end of each instruction, questions included."""
+        self._left = self._total = 0
 
-    def needs(self, sent: int) -> int | None:
-        """Return the free bytes that the next instruction needs; None when all are sent."""
-        number = bisect_right(self._ends, sent)
-        return self._needs[number] if number < len(self._needs) else None
+    def written(self, data: bytes, program: int) -> None:
+        """Learn that bytes were written, ``program`` of them not device control."""
+        self._total += program
+        if QUESTIONS.fullmatch(data):
+            return
+        self._left += program
+        while self._next is not None and self._left >= self._lengths[len(self._ends) - 1]:
+            self._left -= self._lengths[len(self._ends) - 1]
+            self._ends.append(self._total - self._left)
+
+    @property
+    def _next(self) -> int | None:
+        number = len(self._ends) - 1
+        return number if number < len(self._lengths) else None
+
+    def needs(self, begun: int) -> int | None:
+        """Return the free bytes that the next instruction needs; None where none may go.
+
+        begun : bytes of program, written since the gauge was made, that the machine has begun.
+        """
+        number = self._next
+        if number is None:
+            return None
+        if self._strokes and not self._may_go(number, bisect_right(self._ends, begun) - 1):
+            return None
+        return self._lengths[number] + self._reserve
+
+    def _may_go(self, number: int, done: int) -> bool:
+        in_flight = self._seconds[number + 1] - self._seconds[min(done, number)]
+        same = self._strokes[min(done, number)] == self._strokes[number]
+        return same or in_flight <= MOST_IN_FLIGHT

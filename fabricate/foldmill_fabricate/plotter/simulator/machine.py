@@ -64,7 +64,7 @@ class Simulator:
         """Rate of the host's end; another than the machine's garbles every byte."""
         self.gauge = Gauge((), 0)
         self._heard = bytearray()
-        self._written = self._arrived_before = 0
+        self._written = self._arrived_before = self._begun_before = 0
         self._scanner = self.device.firmware.scanner()
         self._now = self.clock.now()
         self._lock = RLock()
@@ -105,11 +105,20 @@ class Simulator:
             return 0
         return max(_FIFO, int(_AHEAD / self.line.byte_time)) - self.queued
 
-    def watch(self, instructions: Sequence[bytes], reserve: int) -> Gauge:
-        """Measure from now on how well the line is used for these instructions."""
+    def watch(
+        self,
+        instructions: Sequence[bytes],
+        reserve: int,
+        motion: Sequence[tuple[float, int]] = (),
+    ) -> Gauge:
+        """Measure from now on how well the line is used for these instructions.
+
+        motion : the seconds and the stroke of each, where what is in flight is limited by them.
+        """
         with self._lock:
             self.advance()
-            self.gauge, self._written = Gauge(instructions, reserve), 0
+            self.gauge, self._written = Gauge(instructions, reserve, motion), 0
+            self._begun_before = self.device.traffic.begun
             self._arrived_before = len(self.device.traffic.program)
             return self.gauge
 
@@ -122,6 +131,7 @@ class Simulator:
             self._sense()
             program = sum(map(self._scanner, data))
             self._written += program
+            self.gauge.written(data, program)
             self.gauge.use.program += program
             self.gauge.use.questions += len(data) - program
             self.line.put(data, self._now)
@@ -301,7 +311,7 @@ class Simulator:
             self.gauge.use.missed += spent
 
     def _has_room(self) -> bool:
-        needs = self.gauge.needs(self._written)
+        needs = self.gauge.needs(self.device.traffic.begun - self._begun_before)
         if needs is None:
             return False
         if self.machine.serial.handshake == "xon-xoff":

@@ -8,10 +8,9 @@ from typing import Any
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
+from foldmill_fabricate.plotter.languages import made_ready, reserve
 from foldmill_fabricate.plotter.link import open_port
-from foldmill_fabricate.plotter.program import instructions
 from foldmill_fabricate.plotter.sender import Delivery, as_sent, send
-from foldmill_fabricate.plotter.session import reserve
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.buffer import Traffic
 from foldmill_fabricate.plotter.simulator.gauge import Use
@@ -45,7 +44,7 @@ class Trial:
 
 def without_questions(program: bytes) -> bytes:
     """Return a program without what the sender asks between strokes and at the end."""
-    return program.replace(b"OA;", b"").removesuffix(b"OE;")
+    return program.replace(b"OA;OE;", b"")
 
 
 def fine_lines(size: int, step: int, speed: int = 80) -> bytes:
@@ -81,9 +80,11 @@ def stream(
     url = devices.plug("trial", Simulator(machine, clock=clock, speed_up=speed_up))
     try:
         with open_port(url, machine) as port:
-            expected = as_sent(program, machine)
+            expected, parts = as_sent(program, machine), made_ready(program, machine).parts
             simulator: Simulator = port.simulator
-            gauge = simulator.watch(instructions(expected), reserve(machine.serial.buffer))
+            motion = [(part.seconds, part.stroke) for part in parts]
+            kept = reserve(machine.serial.buffer)
+            gauge = simulator.watch([part.data for part in parts], kept, motion)
             delivery = sender(program, port, machine)
         device = simulator.device
         moving = device.carriage.tally.moving / speed_up

@@ -1,0 +1,261 @@
+"""ESC.B: ask for the free bytes, early enough that the answer is there before it is needed.
+
+What is known is a lower bound: the last answer less all that was written since its question was
+written. One question at a time. ESC.E stands in for ESC.B once after each proof: strokes are
+certain only when no byte before their proof was lost or garbled on the line.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from math import ceil
+
+from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
+from foldmill_fabricate.plotter.handshakes.hp import HpSession
+from foldmill_fabricate.plotter.handshakes.proving import Proving
+from foldmill_fabricate.plotter.languages import reserve
+from foldmill_fabricate.plotter.program import Job
+from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
+from foldmill_fabricate.plotter.witness import QUESTION
+
+LENT = 16
+"""Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
+time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
+_MOST_COLLISIONS = 20
+_LONGEST_NAP = 0.25
+"""s between two questions while nothing fits."""
+_OFTEN = 0.4
+"""s between two questions while all fits: so that silence is noticed."""
+_NAP = 0.02
+"""Share of the time without a change that is waited before the next question."""
+_LATE = 0.8
+"""s that a proof waits for a good moment for ESC.E."""
+_MET = 10
+
+
+class Asked(Proving):
+    """The machine is asked how many bytes are free."""
+
+    def __init__(self, session: HpSession, job: Job) -> None:
+        super().__init__(session, job)
+        self._reserve = reserve(session.buffer)
+        self._kept = self._reserve - min(LENT, self._reserve // 4)
+        self._cover = ceil(1.5 * session.round_trip / session.byte_time)
+        """Bytes that keep the line busy while an answer comes."""
+        self._free, self._free_at = session.buffer, 0
+        """The last answer, and how many units were written before its question."""
+        self._done = 0
+        """Units that had left the buffer then."""
+        self._asked: int | None = None
+        """Units written before the open question."""
+        self._of_error = False
+        """Whether that is ESC.E."""
+        self._proved = self._clean = 0
+        """Units proved when ESC.E was asked last; those of them that its answer made certain."""
+        self._places = self._collisions = 0
+        """Positions heard before the open question; questions in a row that met one."""
+        self._progress = self._changed = self._asked_when = session.clock.now()
+        """When a unit was last seen to leave the buffer; when an answer last differed."""
+        self._cleaned = session.clock.now()
+        """When ESC.E was answered last."""
+        self._due = session.clock.now()
+        """When silence is silence."""
+
+    @property
+    def ahead(self) -> float:
+        """Motion that may still be under way, the one that has left the buffer included."""
+        return self.sums.in_flight(max(0, self._done - 1), self.sent)
+
+    @property
+    def acked(self) -> int:
+        """Strokes that are proved, and before which no byte was lost."""
+        return self.witness.strokes_before(self._clean)
+
+    def wait_for(self, number: int) -> None:
+        """Return when it fits; asks at once when it does not."""
+        self.session.settle()
+        self._look()
+        while not self._fits(number):
+            self._ask()
+            self._wait()
+            if not self._fits(number) and self._unclean and self._is_late:
+                self._ask(of_error=True)
+                self._wait()
+            self._nap(number)
+        if self._asked is not None:
+            return
+        waited = self.session.clock.now() - self._asked_when
+        following = self._following(number)
+        if self._unclean and (following > 3 * self._cover or waited > _OFTEN or self._is_late):
+            self._ask(of_error=True)
+        elif following < self._cover or waited > _OFTEN:
+            self._ask()  # what follows on the line covers the time until the answer
+
+    def idle(self) -> None:
+        """Ask now and then."""
+        self._ask(of_error=self._unclean)
+        self._wait()
+        self.session.rest_until(self.session.clock.now() + _LONGEST_NAP)
+        self.witness.hear()
+        self._progress = self.session.clock.now()
+
+    def drain(self) -> None:
+        """Wait for an answer that is still open, so that the next one is not mistaken for it."""
+        while self._asked is not None or self._bound < len(QUESTION) + self._kept:
+            self._ask()
+            self._wait()
+
+    def lost(self) -> str:
+        """Ask for the I/O error."""
+        return _lost(self.session.io_error())
+
+    @property
+    def _unclean(self) -> bool:
+        return self.witness.executed > self._clean
+
+    @property
+    def _is_late(self) -> bool:
+        """Whether what is proved has waited long for ESC.E."""
+        return self.session.clock.now() - self._cleaned > _LATE
+
+    @property
+    def _bound(self) -> int:
+        """Bytes that are free at least."""
+        sums = self.sums
+        return self._free - (sums.bytes[self.sent] - sums.bytes[self._free_at])
+
+    def _fits(self, number: int) -> bool:
+        length = len(self.sums.parts[number].data)
+        return length + self._kept <= self._bound and self.sums.may_follow(self._done, number)
+
+    def _following(self, number: int) -> int:
+        """Return the bytes that could follow unit ``number`` without another answer."""
+        sums = self.sums
+        room = self._bound - self._reserve + sums.bytes[self.sent]
+        last = bisect_right(sums.bytes, room) - 1
+        if last >= len(sums.parts):
+            return self._cover  # all the rest fits
+        last = max(min(last, sums.reach(self._done)), number + 1)
+        while last > number + 1 and not sums.may_follow(self._done, last - 1):
+            last -= 1
+        return max(0, sums.bytes[last] - sums.bytes[number + 1])
+
+    def _ask(self, of_error: bool = False) -> None:
+        if self._asked is not None:
+            return
+        session = self.session
+        limit = session.clock.now() + SILENCE / 2  # half an answer may be the last there is
+        while (session.hearing or session.proving) and session.clock.now() < limit:
+            session.wait_a_byte(limit)  # two answers at once are an error
+        session.ask_error() if of_error else session.ask_free()
+        self._of_error, self._proved = of_error, self.witness.executed
+        self._asked, self._asked_when = self.sent, session.clock.now()
+        self._due = session.line_free + SILENCE
+        self._places = session.places
+
+    def _look(self) -> None:
+        """Hear an answer that has come; raise NoAnswer where none will."""
+        if self._asked is None:
+            return
+        self._hear(self.session.answer_at_hand())
+        if self._asked is not None and self.session.clock.now() > self._due:
+            self._missed()
+
+    def _wait(self) -> None:
+        """Wait for the open question's answer, and learn from it."""
+        if self._asked is None:
+            return
+        answer = self.session.answer(self._soon)
+        if answer is None and self.session.places > self._places:
+            self._missed()
+            return
+        answer = answer or self.session.answer(self._due)
+        if answer is None:
+            self._missed()
+            return
+        self._hear(answer)
+        self.witness.hear()
+        self._check_progress()
+
+    @property
+    def _soon(self) -> float:
+        """By when an answer is there that nothing has met."""
+        session = self.session
+        return self._due - SILENCE + 3 * session.round_trip + 24 * session.byte_time
+
+    def _missed(self) -> None:
+        """Ask again if the question met the answer to OA, and was dropped for it."""
+        self._asked = None
+        if self.session.places <= self._places:
+            raise NoAnswer(
+                f"The plotter has stopped answering after instruction {self.sent} of "
+                f"{len(self.sums.parts)}; the cable, or the machine itself."
+            )
+        self._collisions += 1
+        if self._collisions > _MOST_COLLISIONS:
+            raise NoAnswer(
+                "The plotter tells its position, but not its free bytes: it does not know ESC.B. "
+                'Use a profile with the handshake "xon-xoff" or "none".'
+            )
+
+    def _hear(self, answer: str | None) -> None:
+        if answer is None or self._asked is None:
+            return
+        if not answer.isdigit():
+            raise NoAnswer(
+                f"The plotter answered {answer!r} where it should have told its free bytes. "
+                "Something disturbs the line; check the cable and the baud rate."
+            )
+        self._collisions, asked = 0, self._asked
+        self._asked = None
+        if self._of_error:
+            self._judge(int(answer))
+            return
+        if self._free_at != asked or str(self._free) != answer:
+            self._changed = self.session.clock.now()
+        self._free, self._free_at = min(int(answer), self.session.buffer), asked
+        gone = self.sums.bytes[self._free_at] - (self.session.buffer - self._free)
+        done = max(self._done, bisect_right(self.sums.bytes, gone) - 1)
+        if done > self._done or self._done == self.sent:
+            self._progress = self.session.clock.now()
+        self._done = done
+
+    def _judge(self, error: int) -> None:
+        """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
+        told = _lost(0 if error == _MET else error)
+        if told:
+            raise PlotterError(told)
+        self._clean, self._cleaned = self._proved, self.session.clock.now()
+
+    def _check_progress(self) -> None:
+        clock = self.session.clock
+        if clock.now() < self._progress + PATIENCE + SLACK * self.ahead:
+            return
+        if self.session.paused():
+            self._progress = clock.now()  # a person's doing; waiting costs nothing
+            return
+        raise NoAnswer(
+            f"The plotter answers, but has not got beyond instruction {self._done} of "
+            f"{len(self.sums.parts)} in the time that takes: it stands still, or is far slower "
+            f"than its profile says. Its own display may say why."
+        )
+
+    def _nap(self, number: int) -> None:
+        """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
+        if self._fits(number):
+            return
+        clock, length = self.session.clock, len(self.sums.parts[number].data)
+        nap = _NAP * (clock.now() - self._changed)
+        if length + self._reserve <= self._bound:
+            nap = (self.sums.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
+        self.session.rest_until(clock.now() + min(_LONGEST_NAP, nap))
+
+
+def _lost(error: int) -> str:
+    if not error:
+        return ""
+    return (
+        f"The machine reports that bytes were lost or garbled on the line (error {error}). Check "
+        "the cable and the baud rate."
+    )

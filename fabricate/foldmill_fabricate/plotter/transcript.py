@@ -1,0 +1,150 @@
+"""What went over the wire: written down while it goes, and played back.
+
+A transcript is a file of JSON lines: ``t`` (s since the first), ``to`` (``machine`` or ``host``)
+and ``data`` (hexadecimal). Played back it is a port that answers what was answered, and refuses
+anything else than what was written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+
+from foldmill_fabricate.plotter.clock import Clock, VirtualClock
+from foldmill_fabricate.plotter.errors import PlotterError
+
+MACHINE, HOST = "machine", "host"
+
+
+class Recorded:
+    """A port whose bytes are written down; whatever else it can do, the port itself does."""
+
+    def __init__(self, port: Any, clock: Clock, to: TextIO) -> None:
+        self.__dict__.update(_port=port, _clock=clock, _to=to, _began=clock.now())
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.__dict__["_port"], name)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        setattr(self.__dict__["_port"], name, value)
+
+    def write(self, data: bytes) -> Any:
+        """Write down and write."""
+        self._note(MACHINE, data)
+        return self.__dict__["_port"].write(data)
+
+    def read(self, size: int = 1) -> bytes:
+        """Read and write down."""
+        data: bytes = self.__dict__["_port"].read(size)
+        if data:
+            self._note(HOST, data)
+        return data
+
+    def _note(self, direction: str, data: bytes) -> None:
+        seconds = self.__dict__["_clock"].now() - self.__dict__["_began"]
+        row = {"t": round(seconds, 6), "to": direction, "data": data.hex()}
+        self.__dict__["_to"].write(json.dumps(row) + "\n")
+
+
+@contextmanager
+def recorded(port: Any, clock: Clock, path: Path | None) -> Iterator[Any]:
+    """Give the port, written down in a new file where one is named.
+
+    Raises PlotterError where the file cannot be written.
+    """
+    if path is None:
+        yield port
+        return
+    try:
+        to = path.open("w", encoding="ascii", buffering=1)
+    except OSError as error:
+        raise PlotterError(f"The transcript {path} cannot be written: {error.strerror}.") from None
+    with to:
+        yield Recorded(port, clock, to)
+
+
+class Replayed:
+    """A port made of a transcript, on a clock of its own."""
+
+    is_open = True
+    out_waiting = 0
+    timeout: float | None = 0.02
+    dsr = cts = True
+
+    def __init__(self, rows: Iterable[str]) -> None:
+        self.clock = VirtualClock()
+        read = [json.loads(row) for row in rows if row.strip()]
+        self._written = b"".join(bytes.fromhex(row["data"]) for row in read if row["to"] == MACHINE)
+        self._at = 0
+        self._answers: deque[tuple[float, int, bytes]] = deque()
+        sent = 0
+        for row in read:
+            data = bytes.fromhex(row["data"])
+            if row["to"] == MACHINE:
+                sent += len(data)
+            else:
+                self._answers.append((float(row["t"]), sent, data))
+        self._heard = b""
+
+    @classmethod
+    def of(cls, path: Path) -> Replayed:
+        """Read a transcript's file."""
+        return cls(path.read_text().splitlines())
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all was written that had been."""
+        return self._at == len(self._written)
+
+    @property
+    def in_waiting(self) -> int:
+        """Bytes that were answered by this time, to what has been written."""
+        while self._answers and self._is_due:
+            self._heard += self._answers.popleft()[2]
+        return len(self._heard)
+
+    @property
+    def _is_due(self) -> bool:
+        moment, sent, _ = self._answers[0]
+        return sent <= self._at and moment <= self.clock.now()
+
+    def write(self, data: bytes) -> int:
+        """Take what was written then; raises PlotterError for anything else."""
+        wanted = self._written[self._at : self._at + len(data)]
+        if data != wanted:
+            raise PlotterError(
+                f"Byte {self._at} of the transcript: {wanted!r} was written then, {data!r} now."
+            )
+        self._at += len(data)
+        return len(data)
+
+    def read(self, size: int = 1) -> bytes:
+        """Return what is there, or wait for the next answer up to the time-out."""
+        if self.in_waiting < size:
+            limit = self.clock.now() + (self.timeout or 0.0)
+            due = self._answers[0][0] if self._answers else limit
+            self.clock.sleep_until(min(max(due, self.clock.now()), limit))
+            if self.in_waiting < size:
+                self.clock.sleep_until(limit)
+        taken, self._heard = self._heard[:size], self._heard[size:]
+        return taken
+
+    def reset_input_buffer(self) -> None:
+        """Drop what has come."""
+        self._heard = self._heard[self.in_waiting :]
+
+    def reset_output_buffer(self) -> None:
+        """Nothing waits."""
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+    def __enter__(self) -> Replayed:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
