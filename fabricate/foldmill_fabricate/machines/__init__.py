@@ -113,8 +113,10 @@ class Tools(Preset):
         return any(self.stations.values())
 
     def force(self, wanted: float) -> float:
-        """Return what is set of a wanted force: no more than there is; 0 where none is set."""
-        return 0.0 if self.max_force is None else min(wanted, self.max_force)
+        """Return what is set of a wanted force, within what there is; 0 where none is set."""
+        if self.max_force is None:
+            return 0.0
+        return min(max(wanted, self.min_force), self.max_force)
 
 
 class Dialect(Preset):

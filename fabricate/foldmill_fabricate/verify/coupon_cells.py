@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from foldmill_fabricate.ladders import Coupon, Ladder, Rung
 from foldmill_fabricate.materials import Perforation, ThroughCut
 from foldmill_fabricate.passes import Face, Hole, Plan, Role
+from foldmill_fabricate.verify.forces import settable
 
 Floats = NDArray[np.float64]
 
@@ -74,7 +75,7 @@ def cells(plan: Plan, coupon: Coupon) -> Iterator[Wanted]:
 def cut(plan: Plan, name: str, role: Role, face: Face, points: list[tuple[float, float]]) -> Wanted:
     """Return a stroke with the figures of the material's cut."""
     made, tools = plan.material.cut, plan.machine.tools
-    force = min(made.force, tools.max_force or 0.0)
+    force = settable(made.force, tools)
     tool = tools.stations.get(made.kind, 0)
     figures = (made.exposure, force, made.speed, made.repeats)
     return Wanted(name, role, face, np.array(points, float), "cut", tool, *figures)
@@ -83,7 +84,7 @@ def cut(plan: Plan, name: str, role: Role, face: Face, points: list[tuple[float,
 def _score(plan: Plan, name: str, face: Face, a: Floats, b: Floats) -> Iterator[Wanted]:
     """Yield a score with the preset's figures: one stroke, or the cuts of a row."""
     made, tools = plan.material.score, plan.machine.tools
-    force = min(made.force, tools.max_force or 0.0)
+    force = settable(made.force, tools)
     figures = (made.exposure, force, made.speed, made.repeats)
     tool = tools.stations.get(made.kind, 0)
     pieces = [(a, b)]

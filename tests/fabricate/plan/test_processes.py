@@ -317,3 +317,30 @@ def test_a_process_the_machine_does_not_offer_is_found_in_the_plan() -> None:
     plan, pattern = perforated()
     elsewhere = plan.model_copy(update={"machine": shelf.machine("hp-7475a")})
     assert "not-offered" in {finding.code for finding in prove_rule(elsewhere, pattern)}
+
+
+def test_a_pen_is_pressed_no_more_lightly_than_its_machine_can() -> None:
+    machine = shelf.machine("graphtec-summa-like")
+    fold = Fold(fan("MVMV"))
+    plan = make(fold, shelf.material("paper-80-120"), machine, score="pen", blank=(200, 200))
+    scores = [s for work in plan.passes for s in work.setups if s.process == "score"]
+    assert {setup.force for setup in scores} == {machine.tools.min_force}
+    assert shelf.material("paper-80-120").scores[-1].force < machine.tools.min_force
+    assert verify(plan, fold.pattern, hpgl.write(plan, fold)).ok
+    lighter = plan.model_copy(
+        update={
+            "passes": tuple(
+                work.model_copy(
+                    update={
+                        "setups": tuple(
+                            s.model_copy(update={"force": 18.0}) if s.process == "score" else s
+                            for s in work.setups
+                        )
+                    }
+                )
+                for work in plan.passes
+            )
+        }
+    )
+    found = verify(lighter, fold.pattern, hpgl.write(lighter, fold)).findings
+    assert "set-up-values" in {finding.code for finding in found}
