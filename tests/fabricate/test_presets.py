@@ -86,6 +86,13 @@ def test_grooves_leave_their_web_and_cuts_go_through(slug: str) -> None:
         ("pp-0.75", "depth_ratio = 0.55", "depth_ratio = 1.5", "depth_ratio", "less than 1"),
         ("pp-0.75", "depth_ratio = 0.55", "dept_ratio = 0.55", "dept_ratio", "There is no"),
         ("pp-0.75", 'kind = "half-cut"', 'kind = "half-gut"', "kind", "half-gut"),
+        (
+            "pp-0.75",
+            'provenance = "Untested',
+            'provenance = "" # "',
+            "prov",
+            "must not be left empty",
+        ),
         ("pp-0.75", 'thickness = "0.75 mm"\n', "", "#", "thickness is missing"),
         ("generic-hpgl-600", "score-and-snap = 1", "score-and-snip = 1", "score", "score-and-snip"),
         ("hp-7475a", "force = false", 'force = "never"', "force", "yes or no"),

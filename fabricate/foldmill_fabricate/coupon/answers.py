@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import date
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.passes import Plan
@@ -62,12 +63,23 @@ class Best(Preset):
     """The smallest hole that keeps the middle of a patch from tearing."""
 
 
+def _day(text: str) -> str:
+    """Return a day of the calendar as it was written; raises ValueError for what is none."""
+    try:
+        is_day = date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        is_day = False
+    if not is_day:
+        raise ValueError("write the day as YYYY-MM-DD")
+    return text
+
+
 class Answers(Preset):
     """Everything that was read from one coupon."""
 
     read_by: str = Field(min_length=1)
     """Who read it."""
-    read_on: Annotated[str, Field(pattern=r"^\d{4}-\d{2}-\d{2}$")]
+    read_on: Annotated[str, AfterValidator(_day)]
     """When, as YYYY-MM-DD."""
     temperature: Celsius | None = Field(None, ge=-20, le=60)
     """Of the room, while both faces were made."""

@@ -280,7 +280,7 @@ class Machine(Sourced):
     """Largest residual of measured registration marks that is still believed."""
     repeatability: Mm = Field(0.15, ge=0)
     """How far a line lands from where it landed before."""
-    provenance: str
+    provenance: str = Field(min_length=1)
     """Where the values come from that name no source of their own."""
     verified: bool
     """Whether it was tried on hardware."""
