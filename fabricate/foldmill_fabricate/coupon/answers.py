@@ -57,6 +57,8 @@ class Best(Preset):
     """Force."""
     repeats: int | None = None
     """How often the tool goes over a score."""
+    gap: Mm | None = None
+    """The longest land between two cuts at which a fold still follows the row."""
     spacing: Mm | None = None
     """The smallest distance at which the sheet between two scores stays whole."""
     relief: Mm | None = None
@@ -93,6 +95,7 @@ _ASKS: dict[LadderKind, tuple[str, str]] = {
     "depth": ("the depth that folds best without tearing", " mm"),
     "force": ("the force that folds best", " gf"),
     "repeats": ("how many repeats fold best", ""),
+    "gap": ("the longest land between cuts at which the fold still follows the row", " mm"),
     "spacing": ("the smallest distance at which the sheet between the scores stays whole", " mm"),
     "relief": (
         "the smallest hole that does not tear when folded flat; 0 where none is needed",

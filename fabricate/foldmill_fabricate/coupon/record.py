@@ -17,14 +17,14 @@ from foldmill_fabricate.coupon.readings import Found, measure
 from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Material
+from foldmill_fabricate.materials import Material, Perforation
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import relief
 from foldmill_fabricate.presets_text import written
 
 P = TypeVar("P", Material, Machine)
 NAMEABLE = re.compile(r"\w[\w.-]*")
-SCORES: tuple[LadderKind, ...] = ("depth", "force", "repeats")
+SCORES: tuple[LadderKind, ...] = ("depth", "force", "repeats", "gap")
 """Ladders that say how a score is made."""
 
 
@@ -125,6 +125,7 @@ def _chosen(coupon: Coupon, answers: Answers) -> dict[LadderKind, float]:
         "depth": answers.best.depth,
         "force": answers.best.force,
         "repeats": answers.best.repeats,
+        "gap": answers.best.gap,
         "spacing": answers.best.spacing,
         "relief": answers.best.relief,
     }
@@ -206,6 +207,8 @@ def _score_changes(
             changed["force_needed"] = chosen["force"]
     if "repeats" in chosen:
         changed["repeats"] = int(chosen["repeats"])
+    if "gap" in chosen:
+        changed["gap"] = chosen["gap"]
     if "spacing" in chosen:
         changed["min_spacing"] = chosen["spacing"]
     return changed, [name for name in changed if not name.startswith("depth_ratio_m")]
@@ -259,6 +262,7 @@ def _advice(
     made = plan.material.score
     force = plan.machine.tools.force(made.force)
     now = {"depth": made.exposure, "force": force, "repeats": made.repeats}
+    now |= {"gap": made.gap} if isinstance(made, Perforation) else {}
     moved = [kind for kind, value in now.items() if chosen.get(kind, value) != value]  # type: ignore[call-overload]
     notes = []
     if len(moved) > 1:

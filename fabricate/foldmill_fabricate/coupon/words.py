@@ -21,6 +21,10 @@ _HOW: dict[LadderKind, str] = {
         "the tool goes over each score as often as the figure below says. The best is the least "
         "number from which on the fold gets no easier."
     ),
+    "gap": (
+        "the land between two cuts is as long as the figure below says (mm). Bend each strip by "
+        "180° five times; the best is the longest land at which the fold still follows the row."
+    ),
     "spacing": (
         "two scores as far apart as the figure below says (mm). Bend both by 90°; the best is the "
         "smallest distance at which the sheet between them stays whole and flat."

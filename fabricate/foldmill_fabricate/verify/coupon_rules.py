@@ -7,6 +7,7 @@ from itertools import combinations
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.ladders import Coupon, Ladder, Rung, Vernier
+from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.coupon_cells import RUN_ON, WORDS_UNDER
@@ -60,6 +61,7 @@ def _usual(plan: Plan, ladder: Ladder) -> float | None:
         "depth": score.exposure,
         "force": settable(score.force, plan.machine.tools),
         "repeats": float(score.repeats),
+        "gap": score.gap if isinstance(score, Perforation) else None,
         "spacing": score.min_spacing,
     }.get(ladder.kind)
 
@@ -75,6 +77,8 @@ def _refused(plan: Plan, ladder: Ladder, rung: Rung) -> str:
         return f"The machine sets {weakest:g} to {strongest:g} gf."
     if ladder.kind == "repeats" and value not in range(1, 21):
         return "It is no number of times, 1 to 20."
+    if ladder.kind == "gap" and not (isinstance(score, Perforation) and 0 < value < 10):
+        return "Only rows of cuts have lands, and these must leave some on a strip."
     if ladder.kind == "spacing" and not 0 < value < 30:
         return "Two scores cannot lie so on one strip."
     if ladder.kind == "hinge" and value not in (90, 180):

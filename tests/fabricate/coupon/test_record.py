@@ -13,7 +13,7 @@ from foldmill_fabricate import presets, shelf
 from foldmill_fabricate.coupon import record
 from foldmill_fabricate.coupon.answers import NAME, Answers, template
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import HalfCut, Material
+from foldmill_fabricate.materials import HalfCut, Material, Perforation
 
 WHO = {"read_by": "A. Reader", "read_on": "2026-05-04"}
 
@@ -219,3 +219,18 @@ def test_a_hole_smaller_than_the_rule_is_recorded_and_the_rule_is_told() -> None
     small, large = recorded(best={"relief": 1.5}), recorded(best={"relief": 2.5})
     assert any("stay 1.875 mm wide" in note for note in small.advice)
     assert not large.advice
+
+
+def test_the_best_land_of_a_perforation_becomes_its_gap() -> None:
+    case = {"material": "paper-80-120", "machine": "generic-hpgl-pens", "score": "perforation"}
+    _, plan = coupon(**case)  # type: ignore[arg-type]
+    answers = Answers.model_validate(WHO | {"best": {"gap": 1.5}})
+    material, machine = shelf.material("paper-80-120"), shelf.machine("generic-hpgl-pens")
+    found = record.record(plan, declared(plan), answers, material, machine, "mine").material
+    assert found is not None
+    made = next(score for score in found.scores if score.kind == "perforation")
+    assert isinstance(made, Perforation)
+    assert (made.gap, found.tested, found.score) == (1.5, True, material.score)
+    assert found.sources["perforation.gap"].startswith("coupon read by")
+    with pytest.raises(InvalidInput, match="this coupon has no gap ladder"):
+        recorded(best={"gap": 1.5})
