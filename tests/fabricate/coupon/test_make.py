@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from coupons import coupon, declared
 
-from foldmill_fabricate.coupon import lettering
+from foldmill_fabricate.coupon import lettering, words
 from foldmill_fabricate.errors import DoesNotFit
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.materials import Perforation
@@ -175,3 +175,13 @@ def test_only_perforations_have_lands_to_try() -> None:
     _, plan = coupon()
     assert "gap" not in kinds(plan)
     assert not any("gap" in sentence for sentence in declared(plan).left_out)
+
+
+@pytest.mark.parametrize("case", CASES[:5])
+def test_every_line_on_how_to_read_stands_by_itself(case: dict[str, Any]) -> None:
+    """No line leans on a ladder that may not be on the sheet."""
+    _, plan = coupon(**case)
+    told = dict(words.lines(plan, declared(plan)))
+    ladders = [text for name, text in told.items() if not name.startswith(("Vernier", "Bars"))]
+    assert not [text for text in ladders if "the same" in text or "as before" in text]
+    assert all("{" not in text for text in told.values())

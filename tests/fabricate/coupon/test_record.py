@@ -223,7 +223,7 @@ def test_a_hole_smaller_than_the_rule_is_recorded_and_the_rule_is_told() -> None
 
 def test_the_best_land_of_a_perforation_becomes_its_gap() -> None:
     case = {"material": "paper-80-120", "machine": "generic-hpgl-pens", "score": "perforation"}
-    _, plan = coupon(**case)  # type: ignore[arg-type]
+    _, plan = coupon(**case)
     answers = Answers.model_validate(WHO | {"best": {"gap": 1.5}})
     material, machine = shelf.material("paper-80-120"), shelf.machine("generic-hpgl-pens")
     found = record.record(plan, declared(plan), answers, material, machine, "mine").material
