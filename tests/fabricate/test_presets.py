@@ -93,6 +93,13 @@ def test_grooves_leave_their_web_and_cuts_go_through(slug: str) -> None:
             "prov",
             "must not be left empty",
         ),
+        (
+            "roland-like-600",
+            'min_force = "30 gf"',
+            'min_force = "900 gf"',
+            "[tools",
+            "at most max_",
+        ),
         ("pp-0.75", 'thickness = "0.75 mm"\n', "", "#", "thickness is missing"),
         ("generic-hpgl-600", "score-and-snap = 1", "score-and-snip = 1", "score", "score-and-snip"),
         ("hp-7475a", "force = false", 'force = "never"', "force", "yes or no"),

@@ -98,6 +98,13 @@ class Tools(Preset):
     blade_offset: Mm = Field(0.25, ge=0)
     """From the holder's axis to the tip that trails it."""
 
+    @model_validator(mode="after")
+    def _has_forces(self) -> Self:
+        """Refuse a least force above the greatest."""
+        if self.max_force is not None and self.min_force > self.max_force:
+            raise ValueError("min_force must be at most max_force")
+        return self
+
     @property
     def host_offset(self) -> float:
         """The offset that programs make up for, mm; 0 where the machine does, or nothing trails."""
