@@ -77,6 +77,8 @@ def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[st
         return f"{name} must be {_KINDS[kind]}, not {_given(fault)}."
     if kind in {"literal_error", "enum"} and name:
         return f"{name} must be {context['expected']}, not {_given(fault)}."
+    if kind == "string_too_short" and name and context["min_length"] == 1:
+        return f"{name} must not be left empty."
     if kind == "union_tag_not_found":
         key = context["discriminator"].strip("'")
         return f"{name}.{key} is missing: say which of its kinds it is."

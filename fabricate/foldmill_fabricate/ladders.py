@@ -15,7 +15,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 XY = tuple[float, float]
-LadderKind = Literal["depth", "force", "repeats", "spacing", "hinge", "relief"]
+LadderKind = Literal["depth", "force", "repeats", "gap", "spacing", "hinge", "relief"]
 Side = Literal["front", "reverse"]
 
 
@@ -27,8 +27,8 @@ class Rung(_Value):
     """One trial: its value, and the lower left corner of its cell."""
 
     value: float
-    """mm of blade, gf, times, mm apart, degrees to fold, or mm of diameter: by the ladder's kind.
-    """
+    """mm of blade, gf, times, mm of land, mm apart, degrees to fold or mm of diameter, by the kind
+    of its ladder."""
     at: XY
     face: Side
     """On which face its scores are made; of a patch, those that are mountains."""

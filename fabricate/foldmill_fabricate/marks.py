@@ -26,6 +26,8 @@ CATCH = 12.0
 laid askew, less than half of what a sheet turned the wrong way is off."""
 SCALE = 1e-3
 """Largest difference in scale that can be temperature; more is a wrong reading."""
+LIKELY = 2.0
+"""How many times the usual error of reading a result may be off by chance."""
 DISTINCT = 2.0
 """A witness mark shows a turn where it would be this many times as far off after any other."""
 
@@ -69,7 +71,7 @@ def fit_marks(
     if expected is None:
         raise _unmatched(turns, seen, plan)
     found = _rigid(expected, seen)
-    _believe(found, plan)
+    _believe(found, expected, plan)
     return found
 
 
@@ -204,14 +206,31 @@ def _astray(seen: Floats, plan: Plan) -> CannotSend:
     )
 
 
-def _believe(found: MarkFit, plan: Plan) -> None:
+def _believe(found: MarkFit, expected: Floats, plan: Plan) -> None:
     if abs(found.scale - 1) > SCALE:
         raise CannotSend(
             f"The marks are {100 * (found.scale - 1):+.2f} % off in scale ({found}); temperature "
-            f"explains {100 * SCALE:g} %. Measure them again."
+            f"explains {100 * SCALE:g} %. {_how_scale_errs(found, expected, plan)}"
         )
     if found.residual > plan.machine.mark_tolerance:
         raise CannotSend(
             f"The marks do not fit a rigid sheet: {found}, and {plan.machine.slug} allows "
             f"{plan.machine.mark_tolerance:g} mm. Measure them again, or lay the sheet anew."
         )
+
+
+def _how_scale_errs(found: MarkFit, expected: Floats, plan: Plan) -> str:
+    """Say what can be done about a wrong scale: readings alone make one where marks lie close.
+
+    Of n marks whose distances from their middle are r, read to e each, the scale errs by e/√Σr².
+    """
+    marks = plan.machine.marks
+    each = marks.optical_error if plan.registration.kind == "l-marks" else marks.hole_error
+    spread = float(np.sqrt(((expected - expected.mean(axis=0)) ** 2).sum()))
+    if abs(found.scale - 1) > LIKELY * each / spread:
+        return "Measure them again; if they stay, calibrate the machine's scale with a coupon."
+    return (
+        f"These {len(expected)} marks lie so close together that reading each to {each:g} mm "
+        f"alone makes {100 * each / spread:.2f} % of it: measure all marks, those far apart first, "
+        f"to {SCALE * spread / LIKELY:.2f} mm."
+    )

@@ -69,3 +69,31 @@ def test_a_residual_beyond_the_machine_is_refused() -> None:
     seen[1] += (-0.4, 0.9)
     with pytest.raises(CannotSend, match="rigid"):
         fit_marks(stool_plan(), as_marks(seen))
+
+
+def test_a_scale_that_readings_alone_can_make_is_refused_with_how_well_to_read() -> None:
+    seen = expected()
+    near = seen[[0, 1]] if np.hypot(*(seen[0] - seen[1])) < 470 else seen[[2, 3]]
+    apart = float(np.hypot(*(near[0] - near[1])))
+    off = 0.0015 * apart
+    way = (near[1] - near[0]) / apart
+    wide = as_marks(seen.mean(axis=0) + 1.0015 * (seen - seen.mean(axis=0)))
+    with pytest.raises(CannotSend, match=r"0\.15 %.*calibrate the machine's scale"):
+        fit_marks(stool_plan(), wide)
+    coarse = stool_plan().machine.marks.model_copy(update={"hole_error": 0.4})
+    machine = stool_plan().machine.model_copy(update={"marks": coarse})
+    plan = stool_plan().model_copy(update={"machine": machine})
+    with pytest.raises(CannotSend, match="lie so close together") as refused:
+        fit_marks(plan, as_marks(np.array([near[0], near[1] + off * way])))
+    share = 100 * 0.4 / (apart / np.sqrt(2))  # two marks: √Σr² is their distance over √2
+    assert f"makes {share:.2f} % of it" in str(refused.value)
+    assert f"to {0.001 * apart / np.sqrt(2) / 2:.2f} mm" in str(refused.value)
+
+
+def test_the_error_of_the_scale_is_what_a_thousand_readings_show() -> None:
+    plan, lot = stool_plan(), np.random.default_rng(6)
+    seen = expected()
+    read = seen + lot.normal(0, 0.02, (1000, *seen.shape))
+    scales = [fit_marks(plan, as_marks(marks)).scale for marks in read]
+    spread = np.sqrt(((seen - seen.mean(axis=0)) ** 2).sum())
+    assert np.std(scales) == pytest.approx(0.02 / spread, rel=0.1)

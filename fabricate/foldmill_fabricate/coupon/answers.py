@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import date
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.passes import Plan
@@ -56,10 +57,23 @@ class Best(Preset):
     """Force."""
     repeats: int | None = None
     """How often the tool goes over a score."""
+    gap: Mm | None = None
+    """The longest land between two cuts at which a fold still follows the row."""
     spacing: Mm | None = None
     """The smallest distance at which the sheet between two scores stays whole."""
     relief: Mm | None = None
     """The smallest hole that keeps the middle of a patch from tearing."""
+
+
+def _day(text: str) -> str:
+    """Return a day of the calendar as it was written; raises ValueError for what is none."""
+    try:
+        is_day = date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        is_day = False
+    if not is_day:
+        raise ValueError("write the day as YYYY-MM-DD")
+    return text
 
 
 class Answers(Preset):
@@ -67,7 +81,7 @@ class Answers(Preset):
 
     read_by: str = Field(min_length=1)
     """Who read it."""
-    read_on: Annotated[str, Field(pattern=r"^\d{4}-\d{2}-\d{2}$")]
+    read_on: Annotated[str, AfterValidator(_day)]
     """When, as YYYY-MM-DD."""
     temperature: Celsius | None = Field(None, ge=-20, le=60)
     """Of the room, while both faces were made."""
@@ -81,6 +95,7 @@ _ASKS: dict[LadderKind, tuple[str, str]] = {
     "depth": ("the depth that folds best without tearing", " mm"),
     "force": ("the force that folds best", " gf"),
     "repeats": ("how many repeats fold best", ""),
+    "gap": ("the longest land between cuts at which the fold still follows the row", " mm"),
     "spacing": ("the smallest distance at which the sheet between the scores stays whole", " mm"),
     "relief": (
         "the smallest hole that does not tear when folded flat; 0 where none is needed",

@@ -61,6 +61,7 @@ TITLES: dict[LadderKind, str] = {
     "depth": "DEPTH MM",
     "force": "FORCE G",
     "repeats": "REPEATS",
+    "gap": "GAP MM",
     "spacing": "SPACING MM",
     "hinge": "HINGE DEG",
     "relief": "RELIEF MM",

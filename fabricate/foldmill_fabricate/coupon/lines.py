@@ -34,6 +34,7 @@ class Trial(NamedTuple):
     exposure: float | None = None
     force: float | None = None
     repeats: int | None = None
+    gap: float | None = None
 
 
 USUAL = Trial()
@@ -134,6 +135,8 @@ def trial(ladder: Ladder, rung: Rung) -> Trial:
         return Trial(exposure=value)
     if ladder.kind == "force":
         return Trial(force=value)
+    if ladder.kind == "gap":
+        return Trial(gap=value)
     return Trial(repeats=int(value)) if ladder.kind == "repeats" else Trial()
 
 
@@ -148,7 +151,8 @@ def _scored(
     if not isinstance(score, Perforation):
         yield Line(Role.SCORE, face, _stroke(a, b), figures)
         return
-    dashes = Dashes(score.cut, score.gap, score.setback)
+    gap = score.gap if figures.gap is None else figures.gap
+    dashes = Dashes(score.cut, gap, score.setback)
     for start, end in perforated(np.array(a), np.array(b), dashes).tolist():
         yield Line(Role.SCORE, face, _stroke(start, end), figures)
 

@@ -138,11 +138,11 @@ def _lettering(material: Material, machine: Machine) -> tuple[Lettering, tuple[s
     if isinstance(made, Perforation):
         why = "for every line of this machine goes through the sheet"
         silent = (f"The words are left out, {why}. The job sheet's drawing names each cell.",)
-    force = machine.tools.force(made.force) * light
+    tools = machine.tools
     return Lettering(
         process=made.kind,
         tool=machine.tools.station(made.kind),
         exposure=made.exposure,
-        force=round(max(force, min(machine.tools.min_force, machine.tools.force(made.force))), 3),
+        force=round(tools.force(tools.force(made.force) * light), 3),
         speed=made.speed,
     ), silent

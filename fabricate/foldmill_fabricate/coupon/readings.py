@@ -91,6 +91,12 @@ def _real(bars: Bars, answers: Answers) -> Floats:
                 f"{100 * abs(length / drawn - 1):.1f} % off. Measure again, from middle to middle "
                 f"of the crosses, in mm."
             )
+    if (read.ac is None) != (read.bd is None):
+        given, missing = ("B to D", "A to C") if read.ac is None else ("A to C", "B to D")
+        raise InvalidInput(
+            f"{given} was read without {missing}: only both diagonals together show whether the "
+            f"machine is square. Measure {missing} too, or leave both out."
+        )
     a = read.ab / w if read.ab else 1.0
     lean = 0.0
     if read.ac and read.bd:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -16,12 +17,14 @@ from foldmill_fabricate.coupon.readings import Found, measure
 from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Material
+from foldmill_fabricate.materials import Material, Perforation
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.plan import relief
 from foldmill_fabricate.presets_text import written
 
 P = TypeVar("P", Material, Machine)
-SCORES: tuple[LadderKind, ...] = ("depth", "force", "repeats")
+NAMEABLE = re.compile(r"\w[\w.-]*")
+SCORES: tuple[LadderKind, ...] = ("depth", "force", "repeats", "gap")
 """Ladders that say how a score is made."""
 
 
@@ -68,8 +71,13 @@ def record(
 
     material, machine : what the coupon was made of and on; suffix : what their slugs get, unless
     they end so. Raises InvalidInput for another material or machine, for a value that is no rung
-    of its ladder, and for readings that cannot be right.
+    of its ladder, for readings that cannot be right, and for a suffix that no file can be named by.
     """
+    if not NAMEABLE.fullmatch(suffix):
+        raise InvalidInput(
+            f"--suffix becomes a part of a file's name: take letters, digits and hyphens, such as "
+            f"mine, not {suffix!r}."
+        )
     for what, given, made in (
         ("material", material.slug, plan.material.slug),
         ("machine", machine.slug, plan.machine.slug),
@@ -117,6 +125,7 @@ def _chosen(coupon: Coupon, answers: Answers) -> dict[LadderKind, float]:
         "depth": answers.best.depth,
         "force": answers.best.force,
         "repeats": answers.best.repeats,
+        "gap": answers.best.gap,
         "spacing": answers.best.spacing,
         "relief": answers.best.relief,
     }
@@ -194,9 +203,12 @@ def _score_changes(
             changed["depth_ratio_max"] = max(deep, score.depth_ratio_max)  # type: ignore[union-attr]
     if "force" in chosen:
         changed["force"] = chosen["force"]
-        changed["force_needed"] = min(score.force_needed, chosen["force"])
+        if chosen["force"] < score.force_needed:
+            changed["force_needed"] = chosen["force"]
     if "repeats" in chosen:
         changed["repeats"] = int(chosen["repeats"])
+    if "gap" in chosen:
+        changed["gap"] = chosen["gap"]
     if "spacing" in chosen:
         changed["min_spacing"] = chosen["spacing"]
     return changed, [name for name in changed if not name.startswith("depth_ratio_m")]
@@ -250,6 +262,7 @@ def _advice(
     made = plan.material.score
     force = plan.machine.tools.force(made.force)
     now = {"depth": made.exposure, "force": force, "repeats": made.repeats}
+    now |= {"gap": made.gap} if isinstance(made, Perforation) else {}
     moved = [kind for kind, value in now.items() if chosen.get(kind, value) != value]  # type: ignore[call-overload]
     notes = []
     if len(moved) > 1:
@@ -257,6 +270,12 @@ def _advice(
             f"{' and '.join(moved)} were each tried by themselves: make one more coupon of "
             f"{material.slug if material else plan.material.slug} to see them together."
         )
+    if material is not None and "relief" in chosen:
+        rule = relief.diameter(plan.coupon.degree if plan.coupon else 4, material)
+        if rule > chosen["relief"]:
+            notes.append(
+                f"Holes that --relief asks for stay {rule:g} mm wide, the least for this thickness."
+            )
     if machine is not None and machine.two_sides.is_known:
         notes.append(
             "The offset of the two sides holds as long as the sheet is turned and laid in the same "

@@ -15,6 +15,8 @@ STEPS = ((0.6, 0.1), (0.3, 0.05), (0.0, 0.025))
 """mm. From which thickness on the blade is tried in which steps; holders click every 0.1 mm."""
 FORCES = (0.6, 0.8, 1.0, 1.2, 1.4)
 """Shares of the force the preset sets."""
+GAPS = (0.5, 0.75, 1.0, 1.5, 2.0)
+"""Shares of the land that the preset leaves between two cuts of a perforation."""
 SPACINGS = (2.0, 1.5, 1.0, 0.75, 0.5)
 """Shares of the least distance that the preset allows."""
 RELIEFS = (-0.5, 0.0, 0.5, 1.0)
@@ -31,10 +33,13 @@ def trials(
         "depth": lambda: _depths(material, machine),
         "force": lambda: _forces(material, machine),
         "repeats": lambda: _repeats(material, machine),
+        "gap": lambda: _gaps(material),
         "spacing": lambda: _spacings(material),
         "hinge": lambda: ANGLES,
         "relief": lambda: _reliefs(material, degree),
     }
+    if not isinstance(material.score, Perforation):
+        del asked["gap"]
     found = {kind: ask() for kind, ask in asked.items()}
     values = {kind: each for kind, each in found.items() if not isinstance(each, str)}
     return values, tuple(each for each in found.values() if isinstance(each, str))
@@ -91,6 +96,13 @@ def _no_programs(ladder: str, machine: Machine) -> str:
         f"The {ladder} ladder is left out: {machine.slug} works from drawings, and its own "
         f"software sets one figure for a whole layer."
     )
+
+
+def _gaps(material: Material) -> Values:
+    """Return lands between the cuts of a row, mm; the cuts stay as long as they are."""
+    assert isinstance(material.score, Perforation)
+    now = material.score.gap
+    return _sorted([now, *(round(share * now, 1) for share in GAPS if share != 1.0)])
 
 
 def _spacings(material: Material) -> Values | str:

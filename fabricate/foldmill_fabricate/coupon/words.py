@@ -14,12 +14,17 @@ _HOW: dict[LadderKind, str] = {
         "180° five times, {sense}; the best is the shallowest that folds in one sharp line."
     ),
     "force": (
-        "the same with the force below it (gf), the blade at its usual depth. Bend as before; the "
-        "best is the least force from which on the fold gets no easier."
+        "each strip is scored with the force below it (gf), all else as usual. Bend all of them by "
+        "180° five times, {sense}; the best is the least force from which on the fold gets no "
+        "easier."
     ),
     "repeats": (
-        "the tool goes over each score as often as the figure below says. The best is the least "
-        "number from which on the fold gets no easier."
+        "the tool goes over each score as often as the figure below says. Bend all of them by 180° "
+        "five times; the best is the least number from which on the fold gets no easier."
+    ),
+    "gap": (
+        "the land between two cuts is as long as the figure below says (mm). Bend each strip by "
+        "180° five times; the best is the longest land at which the fold still follows the row."
     ),
     "spacing": (
         "two scores as far apart as the figure below says (mm). Bend both by 90°; the best is the "

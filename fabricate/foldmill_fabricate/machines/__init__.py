@@ -102,6 +102,13 @@ class Tools(Preset):
     blade_offset: Mm = Field(0.25, ge=0)
     """From the holder's axis to the tip that trails it."""
 
+    @model_validator(mode="after")
+    def _has_forces(self) -> Self:
+        """Refuse a least force above the greatest."""
+        if self.max_force is not None and self.min_force > self.max_force:
+            raise ValueError("min_force must be at most max_force")
+        return self
+
     @property
     def host_offset(self) -> float:
         """The offset that programs make up for, mm; 0 where the machine does, or nothing trails."""
@@ -117,8 +124,10 @@ class Tools(Preset):
         return any(self.stations.values())
 
     def force(self, wanted: float) -> float:
-        """Return what is set of a wanted force: no more than there is; 0 where none is set."""
-        return 0.0 if self.max_force is None else min(wanted, self.max_force)
+        """Return what is set of a wanted force, within what there is; 0 where none is set."""
+        if self.max_force is None:
+            return 0.0
+        return min(max(wanted, self.min_force), self.max_force)
 
 
 class Dialect(Preset):
@@ -306,7 +315,7 @@ class Machine(Sourced):
     """Largest residual of measured registration marks that is still believed."""
     repeatability: Mm = Field(0.15, ge=0)
     """How far a line lands from where it landed before."""
-    provenance: str
+    provenance: str = Field(min_length=1)
     """Where the values come from that name no source of their own."""
     verified: bool
     """Whether it was tried on hardware."""

@@ -98,7 +98,7 @@ class Material(Sourced):
     other_cuts: tuple[AnyCut, ...] = ()
     """What takes its place on machines that do not offer it, in order of preference."""
     holes: Holes
-    provenance: str
+    provenance: str = Field(min_length=1)
     """Where the values come from, and who tested them; "untested" until a coupon was read."""
     tested: bool
     """Whether a coupon of it was cut, read and recorded."""

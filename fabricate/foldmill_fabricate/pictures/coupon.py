@@ -54,6 +54,7 @@ def _names(plan: Plan, coupon: Coupon) -> list[tuple[str, tuple[float, float]]]:
     """Return the name of each part and where it stands, right of the part."""
     about = {
         "depth": "depth: how far the blade stands out",
+        "gap": "gap: the land between two cuts",
         "force": "force: how hard it is pressed",
         "repeats": "repeats: how often it goes over",
         "spacing": "spacing: two scores side by side",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,7 +134,10 @@ def _draw_blank(axes: Axes, sheet: Sheet, flip: Flip | None, span: float) -> Non
         return
     across, along = axis_line(sheet, flip, 0.02 * span)
     axes.plot(across, along, color="#808080", linewidth=0.7, linestyle="-.")
-    axes.text(across[1], along[1], f" turned over {flip.kind}", fontsize=8, color="#606060")
+    look: dict[str, Any] = {"fontsize": 8, "color": "#606060"}
+    if flip.kind == "end-over-end":  # along the edge: beside it there is no room for words
+        look |= {"rotation": 90, "va": "center"}
+    axes.text(across[1], along[1], f" turned over {flip.kind}", **look)
 
 
 def _label_places(axes: Axes, plan: Plan, span: float, letters: float) -> None:

@@ -12,6 +12,7 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import (
     CreaseWheel,
     HalfCut,
+    Material,
     Perforation,
     ScoreAndSnap,
     Stylus,
@@ -137,9 +138,29 @@ def _depth(plan: Plan) -> Iterator[Finding]:
             f"are needed.",
             "Lower the depth ratio.",
         )
+    if isinstance(material.score, HalfCut | VScore) and material.score.exposure:
+        yield from _blade(material, material.score)
     yield from _through(plan)
     if isinstance(material.score, HalfCut | VScore | CreaseWheel | Stylus):
         yield from _depth_range(material.slug, material.score)
+
+
+def _blade(material: Material, score: HalfCut | VScore) -> Iterator[Finding]:
+    """Judge how far the blade stands out: it makes the depth that the preset's share promises."""
+    wanted = score.depth_ratio * material.thickness
+    left = max(0.0, material.thickness - score.exposure)
+    too_deep = left < score.web_min - 1e-9
+    if not too_deep and abs(score.exposure - wanted) <= BLADE_STEP / 2 + 1e-9:
+        return
+    yield Finding(
+        "blade-depth",
+        Severity.ERROR if too_deep else Severity.WARNING,
+        material.slug,
+        f"The blade of the {score.title} stands out {score.exposure:g} mm and leaves {left:.2f} mm "
+        f"of the sheet; a depth of {score.depth_ratio:.0%} leaves "
+        f"{material.thickness - wanted:.2f} mm, and {score.web_min:g} mm are needed.",
+        f"Set {score.kind}.exposure to {wanted:.2f} mm, or depth_ratio to what you mean.",
+    )
 
 
 def _through(plan: Plan) -> Iterator[Finding]:

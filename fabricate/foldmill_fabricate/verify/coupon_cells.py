@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from foldmill_fabricate.ladders import Coupon, Ladder, Rung
 from foldmill_fabricate.materials import Perforation, ThroughCut
 from foldmill_fabricate.passes import Face, Hole, Plan, Role
+from foldmill_fabricate.verify.forces import settable
 
 Floats = NDArray[np.float64]
 
@@ -74,26 +75,31 @@ def cells(plan: Plan, coupon: Coupon) -> Iterator[Wanted]:
 def cut(plan: Plan, name: str, role: Role, face: Face, points: list[tuple[float, float]]) -> Wanted:
     """Return a stroke with the figures of the material's cut."""
     made, tools = plan.material.cut, plan.machine.tools
-    force = min(made.force, tools.max_force or 0.0)
+    force = settable(made.force, tools)
     tool = tools.stations.get(made.kind, 0)
     figures = (made.exposure, force, made.speed, made.repeats)
     return Wanted(name, role, face, np.array(points, float), "cut", tool, *figures)
 
 
-def _score(plan: Plan, name: str, face: Face, a: Floats, b: Floats) -> Iterator[Wanted]:
-    """Yield a score with the preset's figures: one stroke, or the cuts of a row."""
+def _score(
+    plan: Plan, name: str, face: Face, a: Floats, b: Floats, gap: float | None = None
+) -> Iterator[Wanted]:
+    """Yield a score with the preset's figures: one stroke, or the cuts of a row.
+
+    gap : the land between those cuts, mm; None for the preset's.
+    """
     made, tools = plan.material.score, plan.machine.tools
-    force = min(made.force, tools.max_force or 0.0)
+    force = settable(made.force, tools)
     figures = (made.exposure, force, made.speed, made.repeats)
     tool = tools.stations.get(made.kind, 0)
     pieces = [(a, b)]
     if isinstance(made, Perforation):
-        pieces = _row(a, b, made)
+        pieces = _row(a, b, made, made.gap if gap is None else gap)
     for start, end in pieces:
         yield Wanted(name, Role.SCORE, face, np.array([start, end]), "score", tool, *figures)
 
 
-def _row(a: Floats, b: Floats, made: Perforation) -> list[tuple[Floats, Floats]]:
+def _row(a: Floats, b: Floats, made: Perforation, gap: float) -> list[tuple[Floats, Floats]]:
     """Return the cuts of a row from a to b.
 
     n cuts and n + 1 lands stretched to the length, n = round((L − gap) / (cut + gap)); where the
@@ -102,14 +108,14 @@ def _row(a: Floats, b: Floats, made: Perforation) -> list[tuple[Floats, Floats]]
     length = float(np.linalg.norm(b - a))
     if length < 2 * made.setback + made.cut / 2:
         return []
-    n = max(1, round((length - made.gap) / (made.cut + made.gap)))
-    share = length / (n * made.cut + (n + 1) * made.gap)
-    first, room = made.gap * share, length - 2 * made.gap * share
+    n = max(1, round((length - gap) / (made.cut + gap)))
+    share = length / (n * made.cut + (n + 1) * gap)
+    first, room = gap * share, length - 2 * gap * share
     if first < made.setback:
         first, room = made.setback, length - 2 * made.setback
-        n = max(1, round((room + made.gap) / (made.cut + made.gap)))
-    share = room / (n * made.cut + (n - 1) * made.gap)
-    step, long = (made.cut + made.gap) * share, made.cut * share
+        n = max(1, round((room + gap) / (made.cut + gap)))
+    share = room / (n * made.cut + (n - 1) * gap)
+    step, long = (made.cut + gap) * share, made.cut * share
     way = (b - a) / length
     return [(a + (first + k * step) * way, a + (first + k * step + long) * way) for k in range(n)]
 
@@ -123,7 +129,8 @@ def _strip(plan: Plan, coupon: Coupon, ladder: Ladder, rung: Rung, name: str) ->
     apart = [0.0, rung.value] if ladder.kind == "spacing" else [0.0]
     for up in apart:
         a, b = np.array([x, root + up]), np.array([x + wide, root + up])
-        for score in _score(plan, f"{name}, score", Face(rung.face), a, b):
+        gap = rung.value if ladder.kind == "gap" else None
+        for score in _score(plan, f"{name}, score", Face(rung.face), a, b, gap):
             yield _tried(score, ladder, rung)
 
 

@@ -7,9 +7,11 @@ from itertools import combinations
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.ladders import Coupon, Ladder, Rung, Vernier
+from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify import tolerances
 from foldmill_fabricate.verify.coupon_cells import RUN_ON, WORDS_UNDER
+from foldmill_fabricate.verify.forces import settable
 
 PITCHES = (10.0, 10.1)
 """mm between a vernier's lines: a tenth of a millimetre shows as one line."""
@@ -54,11 +56,12 @@ def _ladder(plan: Plan, coupon: Coupon, ladder: Ladder) -> Iterator[Finding]:
 
 
 def _usual(plan: Plan, ladder: Ladder) -> float | None:
-    score, most = plan.material.score, plan.machine.tools.max_force
+    score = plan.material.score
     return {
         "depth": score.exposure,
-        "force": min(score.force, most or 0.0),
+        "force": settable(score.force, plan.machine.tools),
         "repeats": float(score.repeats),
+        "gap": score.gap if isinstance(score, Perforation) else None,
         "spacing": score.min_spacing,
     }.get(ladder.kind)
 
@@ -67,13 +70,15 @@ def _refused(plan: Plan, ladder: Ladder, rung: Rung) -> str:
     """Return why a rung's value must not be tried; empty where it may."""
     score, value = plan.material.score, rung.value
     deepest = plan.material.thickness - score.web_min
-    strongest = plan.machine.tools.max_force or 0.0
+    weakest, strongest = plan.machine.tools.min_force, plan.machine.tools.max_force or 0.0
     if ladder.kind == "depth" and not 0 < value <= deepest + tolerances.PLAN_MM:
         return f"The blade would leave less than the web; {deepest:g} mm is the most."
-    if ladder.kind == "force" and not 0 < value <= strongest + tolerances.PLAN_MM:
-        return f"The machine has {strongest:g} gf."
+    if ladder.kind == "force" and not max(weakest, 1e-9) <= value <= strongest:
+        return f"The machine sets {weakest:g} to {strongest:g} gf."
     if ladder.kind == "repeats" and value not in range(1, 21):
         return "It is no number of times, 1 to 20."
+    if ladder.kind == "gap" and not (isinstance(score, Perforation) and 0 < value < 10):
+        return "Only rows of cuts have lands, and these must leave some on a strip."
     if ladder.kind == "spacing" and not 0 < value < 30:
         return "Two scores cannot lie so on one strip."
     if ladder.kind == "hinge" and value not in (90, 180):

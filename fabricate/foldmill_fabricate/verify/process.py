@@ -7,6 +7,7 @@ from itertools import pairwise
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.materials import Perforation, ThroughCut
 from foldmill_fabricate.passes import Face, Gate, Operation, Plan, Role, SetUp
+from foldmill_fabricate.verify.forces import settable
 from foldmill_fabricate.verify.virtual_sheet import modelled_offset
 
 _PROCESS = {
@@ -173,7 +174,7 @@ def _value_findings(plan: Plan, setup: SetUp) -> list[Finding]:
     wanted = {
         "tool": (setup.tool, tools.stations.get(process.kind, 0)),
         "exposure": (setup.exposure, process.exposure),
-        "force": (setup.force, min(process.force, tools.max_force or 0.0)),
+        "force": (setup.force, settable(process.force, tools)),
         "speed": (setup.speed, process.speed),
         "swivel force": (setup.swivel_force, _swivel_force(plan, setup)),
     }

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from coupons import coupon, declared
 
-from foldmill_fabricate.coupon import lettering
+from foldmill_fabricate.coupon import lettering, words
 from foldmill_fabricate.errors import DoesNotFit
 from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.materials import Perforation
 from foldmill_fabricate.passes import Face, Plan, Role
 from foldmill_fabricate.sheet import flipped
 from foldmill_fabricate.verify import verify
@@ -134,3 +135,53 @@ def test_a_word_is_as_high_and_as_long_as_it_is_said_to_be() -> None:
     points = np.vstack(lettering.strokes("E0.45 mm", 3.0))
     assert np.ptp(points[:, 1]) == pytest.approx(3.0)
     assert np.ptp(points[:, 0]) < lettering.width("E0.45 mm", 3.0)
+
+
+@pytest.mark.parametrize("case", [CASES[4], {"machine": "grbl-laser", "material": "pet-0.25"}])
+def test_a_perforation_is_tried_with_lands_of_several_lengths(case: dict[str, Any]) -> None:
+    """On every strip the middle lands are as long as its figure says, within a stretched cut."""
+    _, plan = coupon(**case)
+    [ladder] = [each for each in declared(plan).ladders if each.kind == "gap"]
+    score = plan.material.score
+    assert isinstance(score, Perforation)
+    assert score.gap in [rung.value for rung in ladder.rungs]
+    assert len(ladder.rungs) >= 4
+    cuts = np.array(
+        [
+            stroke.points
+            for work in plan.passes
+            for setup in work.setups
+            for operation in setup.operations
+            if operation.role is Role.SCORE
+            for stroke in operation.strokes
+        ]
+    )
+    shares = []
+    for rung in ladder.rungs:
+        (x, y), wide = rung.at, declared(plan).strip_width
+        middles = cuts.mean(axis=1)
+        inside = (abs(middles[:, 0] - x - wide / 2) < wide / 2) & (abs(middles[:, 1] - y - 7) < 7)
+        row = np.sort(cuts[inside][:, :, 0], axis=1)
+        row = row[np.argsort(row[:, 0])]
+        lands, lengths = row[1:, 0] - row[:-1, 1], row[:, 1] - row[:, 0]
+        assert row[0, 0] >= x + score.setback - 1e-6
+        assert row[-1, 1] <= x + wide - score.setback + 1e-6
+        assert lands == pytest.approx(rung.value, rel=0.35)
+        shares.append(lands.mean() / lengths.mean())
+    assert shares == pytest.approx([rung.value / score.cut for rung in ladder.rungs], rel=1e-3)
+
+
+def test_only_perforations_have_lands_to_try() -> None:
+    _, plan = coupon()
+    assert "gap" not in kinds(plan)
+    assert not any("gap" in sentence for sentence in declared(plan).left_out)
+
+
+@pytest.mark.parametrize("case", CASES[:5])
+def test_every_line_on_how_to_read_stands_by_itself(case: dict[str, Any]) -> None:
+    """No line leans on a ladder that may not be on the sheet."""
+    _, plan = coupon(**case)
+    told = dict(words.lines(plan, declared(plan)))
+    ladders = [text for name, text in told.items() if not name.startswith(("Vernier", "Bars"))]
+    assert not [text for text in ladders if "the same" in text or "as before" in text]
+    assert all("{" not in text for text in told.values())

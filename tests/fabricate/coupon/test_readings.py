@@ -141,6 +141,8 @@ def test_a_machine_without_a_fault_is_left_as_it_is() -> None:
         ({"bars": {"ab": 47.0}}, r"A to B was read as 47 mm, and 470.0 mm were drawn"),
         ({"bars": {"ab": 470, "ad": 400, "ac": 617.2, "bd": 621.2}}, "contradict each other"),
         ({"bars": {"ac": 634.0, "bd": 600.0}}, r"leans by -?\d"),
+        ({"bars": {"ab": 470, "ac": 617.2}}, "A to C was read without B to D"),
+        ({"bars": {"bd": 617.2}}, "B to D was read without A to C"),
         ({"vernier": {"x": 51}}, "its numbers go from -50 to 50"),
         ({"vernier": {"y": -30.5}}, "record the bars alone"),
     ],

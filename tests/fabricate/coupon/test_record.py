@@ -13,7 +13,7 @@ from foldmill_fabricate import presets, shelf
 from foldmill_fabricate.coupon import record
 from foldmill_fabricate.coupon.answers import NAME, Answers, template
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import HalfCut, Material
+from foldmill_fabricate.materials import HalfCut, Material, Perforation
 
 WHO = {"read_by": "A. Reader", "read_on": "2026-05-04"}
 
@@ -130,6 +130,8 @@ def test_another_material_is_refused() -> None:
     ("line", "sentence"),
     [
         ('read_on = "4 May"', r"line 2: .*read_on"),
+        ('read_on = "2026-13-45"', r"line 2: read_on: write the day as YYYY-MM-DD"),
+        ('read_on = "2026-W01-1"', r"line 2: read_on: write the day as YYYY-MM-DD"),
         ('[bars]\nab = "47 cows"', r"line 4: .*ab"),
         ("[hinge]\nat_90 = 95", r"line 4: .*at most 90"),
         ("temperature = 200", r"line 3: .*at most 60"),
@@ -188,3 +190,47 @@ def test_a_preset_of_the_users_own_keeps_its_name() -> None:
     assert second.material.slug == "pp-0.75-mine"
     assert second.machine is not None
     assert second.machine.axes.scale_x == machine.axes.scale_x
+
+
+@pytest.mark.parametrize("suffix", ["../other", "", "a/b", "-x", "a b"])
+def test_presets_are_named_by_words_that_a_file_can_bear(suffix: str) -> None:
+    _, plan = coupon()
+    answers = Answers.model_validate(WHO | {"best": {"depth": 0.5}})
+    with pytest.raises(InvalidInput, match="part of a file's name"):
+        record.record(plan, declared(plan), answers, plan.material, plan.machine, suffix)
+
+
+def test_an_unsigned_coupon_is_refused_in_plain_words() -> None:
+    with pytest.raises(UnreadableFile, match=r"line 1: read_by must not be left empty\.$"):
+        presets.read(Answers, 'read_by = ""\nread_on = "2026-05-04"', NAME)
+
+
+def test_only_what_a_coupon_changed_is_said_to_come_from_it() -> None:
+    strong, weak = recorded(best={"force": 290}).material, recorded(best={"force": 145}).material
+    assert strong is not None
+    assert weak is not None
+    assert (strong.score.force, strong.score.force_needed) == (290, 200)
+    assert strong.sources["half-cut.force_needed"] == "estimate"
+    assert (weak.score.force, weak.score.force_needed) == (145, 145)
+    assert weak.sources["half-cut.force_needed"].startswith("coupon read by")
+
+
+def test_a_hole_smaller_than_the_rule_is_recorded_and_the_rule_is_told() -> None:
+    small, large = recorded(best={"relief": 1.5}), recorded(best={"relief": 2.5})
+    assert any("stay 1.875 mm wide" in note for note in small.advice)
+    assert not large.advice
+
+
+def test_the_best_land_of_a_perforation_becomes_its_gap() -> None:
+    case = {"material": "paper-80-120", "machine": "generic-hpgl-pens", "score": "perforation"}
+    _, plan = coupon(**case)
+    answers = Answers.model_validate(WHO | {"best": {"gap": 1.5}})
+    material, machine = shelf.material("paper-80-120"), shelf.machine("generic-hpgl-pens")
+    found = record.record(plan, declared(plan), answers, material, machine, "mine").material
+    assert found is not None
+    made = next(score for score in found.scores if score.kind == "perforation")
+    assert isinstance(made, Perforation)
+    assert (made.gap, found.tested, found.score) == (1.5, True, material.score)
+    assert found.sources["perforation.gap"].startswith("coupon read by")
+    with pytest.raises(InvalidInput, match="this coupon has no gap ladder"):
+        recorded(best={"gap": 1.5})

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 import stools
+from fabricate.plan.test_make import square
 from slit_forms import form
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.formats import places as places_format
+from foldmill_fabricate.pictures import canvas, sheet
 from foldmill_fabricate.pictures.places import places, places_picture
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.sheet import placed
@@ -42,3 +46,22 @@ def test_findings_of_one_kind_are_told_together_where_they_are_near(apart: float
     )
     assert [place.finding.code for place in told] == (["b", "a"] if apart < 3 else ["b", "a", "a"])
     assert sum(place.times for place in told) == 3
+
+
+@pytest.mark.parametrize("flip", ["left-right", "end-over-end"])
+def test_how_the_sheet_is_turned_over_is_written_within_the_picture(
+    flip: Literal["left-right", "end-over-end"],
+) -> None:
+    plan = make(
+        square("MVMV", 90), stools.material(), stools.machine(), blank=(200, 200), flip=flip
+    )
+    with canvas.own_style():
+        figure = canvas.figure(200, 290)
+        axes = canvas.flat_axes(figure, (0.03, 0.32, 0.94, 0.62))
+        sheet.draw(axes, plan)
+        canvas.png(figure)
+        [words] = [each for each in axes.texts if "turned over" in each.get_text()]
+        box = words.get_window_extent()
+    assert flip in words.get_text()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.width
+    assert 0 <= box.y0 < box.y1 <= figure.bbox.height

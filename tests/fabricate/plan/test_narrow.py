@@ -7,7 +7,7 @@ import pytest
 import stools
 
 from foldmill import CreasePattern, Fold
-from foldmill.finding import Finding
+from foldmill.finding import Finding, Severity
 from foldmill_fabricate import presets, shelf
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, ScoreAndSnap
@@ -141,3 +141,18 @@ def test_a_hole_at_the_end_of_an_inner_cut_takes_that_end_away() -> None:
     plan = make(fold, stools.material(), stools.machine(), relief="all")
     assert len(plan.reliefs) == 2
     assert "relief-too-near" not in {finding.code for finding in plan.findings}
+
+
+@pytest.mark.parametrize("exposure", [0.2, 0.36, 0.4, 0.46, 0.5, 0.55, 0.56, 0.8])
+def test_the_blade_of_a_score_keeps_the_web_and_the_depth_that_the_preset_promises(
+    exposure: float,
+) -> None:
+    material = stools.material()
+    score = material.score.model_copy(update={"exposure": exposure})
+    told = found(strip(20), "blade-depth", material=material.model_copy(update={"score": score}))
+    assert bool(told) == (abs(exposure - 0.55 * 0.75) > 0.05)
+    if told:
+        severity = Severity.ERROR if 0.75 - exposure < score.web_min - 1e-9 else Severity.WARNING
+        assert told[0].severity is severity
+        assert f"leaves {max(0.0, 0.75 - exposure):.2f} mm of the sheet" in told[0].message
+        assert "Set half-cut.exposure to 0.41 mm" in told[0].remedy

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 import stools
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from foldmill import Assignment, CreasePattern, Fold
@@ -83,11 +83,12 @@ def drawn_at(plan: Plan, face: Face, start: np.ndarray, end: np.ndarray) -> bool
 @EVERY
 @settings(max_examples=8)
 @given(letters=st.text("MV", min_size=3, max_size=7), turn=st.floats(5, 25))
+@example(letters="MVM", turn=15.2)
 def test_the_groove_of_every_fold_is_on_the_side_the_process_says(
     material: str, machine: str, kind: Kind, letters: str, turn: float
 ) -> None:
-    ways = turn + 360 * np.arange(len(letters)) / len(letters)
-    assume(np.abs((ways - 45) % 90 - 45).max() < 44)  # none runs into a corner
+    rays = turn + 360 * np.arange(len(letters)) / len(letters)
+    assume((abs(rays % 90 - 45) > 0.1).all())  # a crease that ends in a corner is another pattern
     pattern = fan(letters, turn)
     plan = planned(pattern, material, machine, kind)
     spots = placed(pattern.vertices, plan.placement)
@@ -326,3 +327,30 @@ def test_a_process_the_machine_does_not_offer_is_found_in_the_plan() -> None:
     plan, pattern = perforated()
     elsewhere = plan.model_copy(update={"machine": shelf.machine("hp-7475a")})
     assert "not-offered" in {finding.code for finding in prove_rule(elsewhere, pattern)}
+
+
+def test_a_pen_is_pressed_no_more_lightly_than_its_machine_can() -> None:
+    machine = shelf.machine("graphtec-summa-like")
+    fold = Fold(fan("MVMV"))
+    plan = make(fold, shelf.material("paper-80-120"), machine, score="pen", blank=(200, 200))
+    scores = [s for work in plan.passes for s in work.setups if s.process == "score"]
+    assert {setup.force for setup in scores} == {machine.tools.min_force}
+    assert shelf.material("paper-80-120").scores[-1].force < machine.tools.min_force
+    assert verify(plan, fold.pattern, hpgl.write(plan, fold)).ok
+    lighter = plan.model_copy(
+        update={
+            "passes": tuple(
+                work.model_copy(
+                    update={
+                        "setups": tuple(
+                            s.model_copy(update={"force": 18.0}) if s.process == "score" else s
+                            for s in work.setups
+                        )
+                    }
+                )
+                for work in plan.passes
+            )
+        }
+    )
+    found = verify(lighter, fold.pattern, hpgl.write(lighter, fold)).findings
+    assert "set-up-values" in {finding.code for finding in found}
