@@ -1,9 +1,11 @@
-"""Arrays of a closed tour of strokes, and how runs of it are turned round and moved.
+"""Arrays of a closed tour of strokes, and how a run of it is turned round.
 
 Plain arrays and scalars only, so that the same functions run compiled and uncompiled, to the same
-result. ``seq`` (n,) the strokes in order, ``pos`` (n,) the place of each, ``side`` (n,) the end at
-which each is entered; stroke s has the nodes 2s and 2s + 1, the last stroke is the depot.
-``touched`` (2n + 1,) lists the places that were written: first which, then flags, then how many.
+result. Stroke s has the nodes 2s and 2s + 1; the last stroke is the depot. ``tour`` (2n,) lists the
+nodes in the order in which the tool comes to them, shifted by one: at the places 2k and 2k + 1 are
+the two nodes of a hop, left and entered; ``pos`` (2n,) the place of each node. So the other node of
+a hop is at place p ^ 1, and a run of strokes has one node at an odd place and one at an even place
+at its ends: it begins, in the order of the array, at the odd one.
 """
 
 from __future__ import annotations
@@ -11,110 +13,66 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-import numpy as np
-
 from foldmill.kernels.jit import jit
 
-RUN = 3
-"""Strokes that are moved together, at the most."""
+
+@jit
+def wrap(p: int, n: int) -> int:
+    """Return a place of a tour of n, of one that lies at most n beyond either end."""
+    if p >= n:
+        return p - n
+    return p + n if p < 0 else p
 
 
 @jit
 def gap(xy: Any, a: int, b: int) -> float:
-    """Return the distance of two nodes, mm."""
+    """Return the distance of two nodes, mm; one that lies nowhere (nan) is at none from any."""
     dx = xy[a, 0] - xy[b, 0]
     dy = xy[a, 1] - xy[b, 1]
     apart = sqrt(dx * dx + dy * dy)
-    return apart if apart == apart else 0.0  # nan: nowhere, so no way
+    return apart if apart == apart else 0.0
 
 
 @jit
-def leave(side: Any, returns: bool, s: int) -> int:
-    """Return the node at which a stroke leaves the tool."""
-    if returns and s != len(side) - 1:
-        return 2 * s + int(side[s])
-    return 2 * s + 1 - int(side[s])
+def mate(tour: Any, pos: Any, a: int) -> int:
+    """Return the node at the other end of a node's hop."""
+    return int(tour[pos[a] ^ 1])
 
 
 @jit
-def put(seq: Any, pos: Any, touched: Any, p: int, s: int) -> None:
-    """Place a stroke in the tour, and note that the place was touched."""
-    seq[p] = s
-    pos[s] = p
-    if touched[len(seq) + p] == 0:
-        touched[len(seq) + p] = 1
-        touched[touched[2 * len(seq)]] = p
-        touched[2 * len(seq)] += 1
+def reverse(tour: Any, pos: Any, i: int, j: int) -> None:
+    """Reverse the places from i to j, round the end of the array where j lies before i."""
+    n = len(tour)
+    for _ in range((wrap(j - i, n) + 1) // 2):
+        one, other = tour[i], tour[j]
+        tour[i], tour[j] = other, one
+        pos[other], pos[one] = i, j
+        i, j = wrap(i + 1, n), wrap(j - 1, n)
 
 
 @jit
-def turn(side: Any, returns: bool, s: int) -> None:
-    """Draw a stroke the other way; one that returns is the same both ways."""
-    if not returns or s == len(side) - 1:
-        side[s] = 1 - side[s]
+def turn(tour: Any, pos: Any, u: int, v: int, log: Any) -> None:
+    """Turn round the run of strokes between its ends u and v, or, where that is shorter, the rest.
+
+    log : how many were turned, then the places of each, in pairs; it may be full.
+    """
+    n = len(tour)
+    i, j = (pos[u], pos[v]) if pos[u] % 2 else (pos[v], pos[u])
+    if 2 * (wrap(j - i, n) + 1) > n:
+        i, j = wrap(j + 1, n), wrap(i - 1, n)
+    reverse(tour, pos, i, j)
+    count = log[0]
+    if 2 * count + 2 < len(log):
+        log[2 * count + 1], log[2 * count + 2] = i, j
+    log[0] = count + 1
 
 
 @jit
-def reverse(seq: Any, pos: Any, side: Any, touched: Any, returns: bool, i: int, j: int) -> None:
-    """Reverse the run from place i to place j, or, where that is shorter, all the others."""
-    n = len(seq)
-    inside = (j - i) % n + 1
-    if 2 * inside > n:
-        i, j = (j + 1) % n, (i - 1) % n
-        inside = n - inside
-    for _ in range(inside // 2):
-        one, other = seq[i], seq[j]
-        put(seq, pos, touched, i, other)
-        put(seq, pos, touched, j, one)
-        turn(side, returns, one)
-        turn(side, returns, other)
-        i, j = (i + 1) % n, (j - 1) % n
-    if inside % 2:
-        put(seq, pos, touched, i, seq[i])
-        turn(side, returns, seq[i])
-
-
-@jit
-def shift(
-    seq: Any,
-    pos: Any,
-    side: Any,
-    touched: Any,
-    returns: bool,
-    i: int,
-    count: int,
-    q: int,
-    back: bool,
-) -> None:
-    """Move the run of ``count`` strokes at place i to behind place q, turned round or not."""
-    n = len(seq)
-    run = np.zeros(RUN, np.int64)
-    for k in range(count):
-        run[k] = seq[(i + k) % n]
-    last = (i + count - 1) % n
-    ahead, behind = (q - last) % n, (i - 1 - q) % n
-    if ahead <= behind:
-        for k in range(ahead):
-            put(seq, pos, touched, (i + k) % n, seq[(last + 1 + k) % n])
-        first = (i + ahead) % n
-    else:
-        for k in range(behind):
-            put(seq, pos, touched, (last - k) % n, seq[(i - 1 - k) % n])
-        first = (q + 1) % n
-    for k in range(count):
-        s = run[count - 1 - k] if back else run[k]
-        if back:
-            turn(side, returns, s)
-        put(seq, pos, touched, (first + k) % n, s)
-
-
-@jit
-def flip(xy: Any, seq: Any, pos: Any, side: Any, touched: Any, p: int) -> float:
-    """Begin a stroke that returns at its other end; return what that costs, mm."""
-    n, s = len(seq), seq[p]
-    x = leave(side, True, seq[(p - 1) % n])
-    y = 2 * seq[(p + 1) % n] + side[seq[(p + 1) % n]]
-    here, there = 2 * s + side[s], 2 * s + 1 - side[s]
-    side[s] = 1 - side[s]
-    put(seq, pos, touched, p, s)
-    return gap(xy, x, there) + gap(xy, there, y) - gap(xy, x, here) - gap(xy, here, y)
+def roll(dice: Any, sides: int) -> int:
+    """Return a number below ``sides``, by Marsaglia's xorshift (2003) of 32 bits."""
+    x = dice[0]
+    x ^= (x << 13) & 0xFFFFFFFF
+    x ^= x >> 17
+    x ^= (x << 5) & 0xFFFFFFFF
+    dice[0] = x
+    return int(x % sides)

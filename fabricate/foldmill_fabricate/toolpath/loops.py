@@ -1,11 +1,15 @@
-"""The inner loops of ordering: 2-opt and Or-opt moves on a closed tour of strokes, then kicks.
+"""The inner loop of ordering: moves that shorten a closed tour of strokes, then kicks.
 
 Plain arrays and scalars only, so that the same functions run compiled and uncompiled, to the same
-result. A stroke s has the nodes 2s and 2s + 1; ``side[s]`` tells at which it is entered. Nodes that
-lie nowhere (nan) are at no distance from any. The last stroke is the depot.
+result; the arrays are those of ``arrays``. Nodes that lie nowhere (nan) are at no distance from
+any.
 
-Methods: 2-opt (Croes 1958) and Or-opt (Or 1976) over neighbour lists with a queue of strokes to
-look at (Bentley 1992); kicks by a double bridge within a short stretch (Martin, Otto, Felten 1991).
+Methods: the moves of ``moves`` over neighbour lists with a queue of nodes to look at (Bentley
+1992); kicks by a double bridge within a short stretch (Martin, Otto, Felten 1991), kept where the
+mended tour is shorter, or by chance hardly longer, the less the later (Dueck, Scheuer 1990), and
+else taken back turn by turn. Mending may not put back the longest hop that was taken out: else
+seven of eight kicks only lead back to the tour before. What is kicked, mended and taken back lies
+close together, so that a kick costs the same on every sheet.
 """
 
 from __future__ import annotations
@@ -15,301 +19,193 @@ from typing import Any
 import numpy as np
 
 from foldmill.kernels.jit import jit
-from foldmill_fabricate.toolpath.arrays import RUN, flip, gap, leave, put, reverse, shift
+from foldmill_fabricate.toolpath.arrays import gap, mate, reverse, roll, turn, wrap
+from foldmill_fabricate.toolpath.moves import apply, search
+from foldmill_fabricate.toolpath.returning import flip, other_end
 
-_LEAST = 1e-9
-"""mm. A smaller gain is rounding."""
 _SEED = 20261122
 """Of the dice, so that the same strokes are always kicked alike."""
 _FEW = 6
 """Strokes, the depot among them, below which kicks have nothing to swap."""
-_STRETCH = 50
-"""Strokes in each of the two runs that a kick swaps, at the most."""
+_FAR = 100_000
+"""Nodes that are turned round at the most, so that a move does not take as long as a sheet."""
+_LOCAL = 2000
+"""Nodes that are turned round to mend a kick, at the most."""
+_STRETCH = 12
+"""Strokes in each of the three runs that a kick swaps, at the most."""
+_HEAT = 0.2
+"""Mean hops by which a tour may become longer, at the most, when it is kicked for the first time;
+less and less until the last."""
+_COLD = 200
+"""Strokes up to which a kicked tour is never kept when it is longer: on a sheet of a few long
+strokes that touch, the mean hop says nothing of what a kick may cost."""
+_LOG = 500
+"""Turns that can be taken back."""
 
 
 @jit
-def _two_opt(
-    xy: Any, near: Any, seq: Any, pos: Any, side: Any, touched: Any, returns: bool, s: int, out: Any
-) -> float:
-    """Try to reverse a run that begins or ends at stroke s; return what it gains, mm."""
-    n = len(seq)
-    p = pos[s]
-    for ahead in (True, False):
-        t = seq[(p + 1) % n] if ahead else seq[(p - 1) % n]
-        a = leave(side, returns, s) if ahead else 2 * s + side[s]
-        c = 2 * t + side[t] if ahead else leave(side, returns, t)
-        old = gap(xy, a, c)
-        for k in range(near.shape[1]):
-            b = near[a, k]
-            if b < 0:
-                continue
-            gain = old - gap(xy, a, b)
-            if gain <= _LEAST:
-                break
-            q = b // 2
-            if q == s or b != (leave(side, returns, q) if ahead else 2 * q + side[q]):
-                continue
-            r = seq[(pos[q] + 1) % n] if ahead else seq[(pos[q] - 1) % n]
-            d = 2 * r + side[r] if ahead else leave(side, returns, r)
-            gain += gap(xy, b, d) - gap(xy, c, d)
-            if gain > _LEAST:
-                if ahead:
-                    reverse(seq, pos, side, touched, returns, pos[t], pos[q])
-                else:
-                    reverse(seq, pos, side, touched, returns, pos[q], pos[t])
-                out[0], out[1], out[2], out[3] = s, t, q, r
-                return gain
-    return 0.0
-
-
-@jit
-def _beside(
-    xy: Any,
-    seq: Any,
-    pos: Any,
-    side: Any,
-    touched: Any,
-    returns: bool,
-    i: int,
-    count: int,
-    which: int,
-    b: int,
-    freed: float,
-    out: Any,
-) -> float:
-    """Try to move a run so that its head or tail lies beside node b; return what it gains, mm."""
-    n, q = len(seq), b // 2
-    first, last = seq[i], seq[(i + count - 1) % n]
-    before, after = seq[(i - 1) % n], seq[(i + count) % n]
-    head, tail = 2 * first + side[first], leave(side, returns, last)
-    a, other = (head, tail) if which == 0 else (tail, head)
-    for behind in (True, False):
-        node = leave(side, returns, q) if behind else 2 * q + side[q]
-        if b != node or (behind and q == before) or (not behind and q == after):
-            continue
-        r = seq[(pos[q] + 1) % n] if behind else seq[(pos[q] - 1) % n]
-        c = 2 * r + side[r] if behind else leave(side, returns, r)
-        gain = freed - gap(xy, a, b) - gap(xy, other, c) + gap(xy, b, c)
-        if gain > _LEAST:
-            back = behind != (which == 0) and head != tail
-            shift(seq, pos, side, touched, returns, i, count, pos[q] if behind else pos[r], back)
-            out[0], out[1], out[2], out[3], out[4], out[5] = first, last, q, r, before, after
-            return gain
-    return 0.0
-
-
-@jit
-def _or_opt(
-    xy: Any, near: Any, seq: Any, pos: Any, side: Any, touched: Any, returns: bool, s: int, out: Any
-) -> float:
-    """Try to move a run of strokes that begins or ends at s; return what it gains, mm."""
-    n = len(seq)
-    for count in range(1, min(RUN, n - 2) + 1):
-        for at_front in (True, False):
-            i = pos[s] if at_front else (pos[s] - count + 1) % n
-            first, last = seq[i], seq[(i + count - 1) % n]
-            before, after = seq[(i - 1) % n], seq[(i + count) % n]
-            head, tail = 2 * first + side[first], leave(side, returns, last)
-            x, y = leave(side, returns, before), 2 * after + side[after]
-            freed = gap(xy, x, head) + gap(xy, tail, y) - gap(xy, x, y)
-            if freed <= _LEAST:
-                continue
-            for which in range(2):
-                a = head if which == 0 else tail
-                for k in range(near.shape[1]):
-                    b = near[a, k]
-                    if b >= 0 and freed - gap(xy, a, b) <= _LEAST:
-                        break
-                    if b < 0 or (pos[b // 2] - i) % n < count:
-                        continue
-                    gain = _beside(
-                        xy, seq, pos, side, touched, returns, i, count, which, b, freed, out
-                    )
-                    if gain > 0.0:
-                        return gain
-    return 0.0
-
-
-@jit
-def _other_end(
-    xy: Any, near: Any, seq: Any, pos: Any, side: Any, touched: Any, s: int, out: Any
-) -> float:
-    """Try to begin a returning stroke at its other end, here or elsewhere; return the gain, mm."""
-    n = len(seq)
-    p = pos[s]
-    before, after = seq[(p - 1) % n], seq[(p + 1) % n]
-    x, y = leave(side, True, before), 2 * after + side[after]
-    here, there = 2 * s + side[s], 2 * s + 1 - side[s]
-    old = gap(xy, x, here) + gap(xy, here, y)
-    gain = old - gap(xy, x, there) - gap(xy, there, y)
-    if gain > _LEAST:
-        flip(xy, seq, pos, side, touched, p)
-        out[0], out[1], out[2], out[3] = s, before, after, s
-        return gain
-    freed = old - gap(xy, x, y)
-    for k in range(near.shape[1]):
-        b = near[there, k]
-        if b < 0:
-            continue
-        gain = freed - gap(xy, there, b)
-        if gain <= _LEAST:
-            break
-        q = b // 2
-        for behind in (True, False):
-            node = leave(side, True, q) if behind else 2 * q + side[q]
-            if b != node or (behind and q == before) or (not behind and q == after):
-                continue
-            r = seq[(pos[q] + 1) % n] if behind else seq[(pos[q] - 1) % n]
-            c = 2 * r + side[r] if behind else leave(side, True, r)
-            total = gain - gap(xy, there, c) + gap(xy, b, c)
-            if total > _LEAST:
-                side[s] = 1 - side[s]
-                place = pos[q] if behind else pos[r]
-                shift(seq, pos, side, touched, True, p, 1, place, False)
-                out[0], out[1], out[2], out[3] = s, before, q, r
-                out[4] = after
-                return total
-    return 0.0
+def _undo(ends: Any, xy: Any, at: Any, tour: Any, pos: Any, log: Any) -> None:
+    """Take back what the log holds, the last first."""
+    for k in range(log[0] - 1, -1, -1):
+        i, j = log[2 * k + 1], log[2 * k + 2]
+        if i < 0:
+            flip(ends, xy, at, -1 - i, log)
+        else:
+            reverse(tour, pos, i, j)
+    log[0] = 0
 
 
 @jit
 def _settle(
+    ends: Any,
     xy: Any,
+    at: Any,
     near: Any,
-    seq: Any,
+    far: Any,
+    tour: Any,
     pos: Any,
-    side: Any,
-    touched: Any,
     returns: bool,
+    most: int,
     queue: Any,
     size: int,
+    log: Any,
+    ban: Any,
+    move: Any,
 ) -> float:
-    """Improve until no stroke in the queue can be; return the gain, mm.
+    """Improve until no node in the queue can be; return the gain, mm.
 
-    queue : (2n,) strokes, of which the first ``size`` count, then (n,) flags of who waits.
+    queue : (2n,) nodes, of which the first ``size`` count, then (2n,) flags of who waits; ban : as
+    for ``search``.
     """
-    n = len(seq)
-    out = np.zeros(6, np.int64)
+    n = len(tour)
     total, head = 0.0, 0
+    twins = 2 if returns else 1
     while size > 0:
-        s = queue[head]
-        head = (head + 1) % n
+        a = queue[head]
+        head = wrap(head + 1, n)
         size -= 1
-        queue[n + s] = 0
-        while True:
-            out[:] = -1
-            gain = _two_opt(xy, near, seq, pos, side, touched, returns, s, out)
-            if gain <= 0.0:
-                gain = _or_opt(xy, near, seq, pos, side, touched, returns, s, out)
-            if gain <= 0.0 and returns and s != n - 1:
-                gain = _other_end(xy, near, seq, pos, side, touched, s, out)
+        queue[n + a] = 0
+        while len(log) == 1 or 2 * log[0] + 10 < len(log):
+            gain = search(xy, at, near, far, tour, pos, twins, most, a, ban, move)
+            if gain <= 0.0 and returns and a < n - 2:
+                gain = other_end(ends, xy, at, near, far, tour, pos, most, a, log, move)
             if gain <= 0.0:
                 break
             total += gain
-            for k in range(6):
-                if out[k] >= 0 and queue[n + out[k]] == 0:
-                    queue[n + out[k]] = 1
-                    queue[(head + size) % n] = out[k]
+            move[5], move[6] = mate(tour, pos, a), mate(tour, pos, move[3])
+            apply(tour, pos, move, log)
+            for k in (0, 1, 2, 3, 5, 6):
+                b = move[k]
+                if queue[n + b] == 0:
+                    queue[n + b] = 1
+                    queue[wrap(head + size, n)] = b
                     size += 1
     return total
 
 
 @jit
 def _kick(
-    xy: Any, seq: Any, pos: Any, side: Any, touched: Any, returns: bool, dice: Any, queue: Any
-) -> float:
-    """Swap two short runs that follow each other; return what that costs, mm.
+    ends: Any, xy: Any, at: Any, tour: Any, pos: Any, returns: bool, dice: Any, queue: Any, log: Any
+) -> tuple[float, int, int]:
+    """Swap the first and the last of three short runs that follow each other.
 
-    Where strokes return, those at the seams are begun at their other end half of the time.
+    Returns what that costs, mm, how many nodes are in the queue, those at the seams, and which
+    of the four hops was the longest. Where strokes return, those at the seams are begun at their
+    other end half of the time.
     """
-    n = len(seq)
-    most = min(_STRETCH, (n - 1) // 2)
-    p = _roll(dice, n)
-    one, other = 1 + _roll(dice, most), 1 + _roll(dice, most)
+    n = len(tour)
+    most = min(_STRETCH, (n // 2 - 2) // 3)
+    p = 2 * roll(dice, n // 2)
     cost = 0.0
-    for k in (p, p + 1, p + 1 + one):
-        if returns and seq[k % n] != n - 1 and _roll(dice, 2) == 0:
-            cost += flip(xy, seq, pos, side, touched, k % n)
-    run = np.zeros(one, np.int64)
-    for k in range(one):
-        run[k] = seq[(p + 1 + k) % n]
-    marks = np.zeros(6, np.int64)
-    marks[0], marks[1], marks[2] = seq[p], run[0], run[one - 1]
-    marks[3], marks[4] = seq[(p + 1 + one) % n], seq[(p + one + other) % n]
-    marks[5] = seq[(p + 1 + one + other) % n]
-    a, b = leave(side, returns, marks[0]), 2 * marks[1] + side[marks[1]]
-    c, d = leave(side, returns, marks[2]), 2 * marks[3] + side[marks[3]]
-    e, f = leave(side, returns, marks[4]), 2 * marks[5] + side[marks[5]]
-    for k in range(other):
-        put(seq, pos, touched, (p + 1 + k) % n, seq[(p + 1 + one + k) % n])
-    for k in range(one):
-        put(seq, pos, touched, (p + 1 + other + k) % n, run[k])
-    for k in range(6):
-        queue[k] = marks[k]
-    old = gap(xy, a, b) + gap(xy, c, d) + gap(xy, e, f)
-    return cost + gap(xy, a, d) + gap(xy, e, b) + gap(xy, c, f) - old
+    for k in range(4):  # the four hops, and the seams
+        queue[2 * k], queue[2 * k + 1] = tour[p], tour[p ^ 1]
+        p = wrap(p + 2 * (1 + roll(dice, most)), n)
+    if returns:
+        for k in range(0, 8, 2):
+            a = queue[k]
+            if a < n - 2 and roll(dice, 2) == 0:
+                x, z = mate(tour, pos, a), mate(tour, pos, a ^ 1)
+                cost -= gap(xy, a, x) + gap(xy, a, z)
+                flip(ends, xy, at, a // 2, log)
+                cost += gap(xy, a, x) + gap(xy, a, z)
+    longest, most_taken = 0, -1.0
+    for k in range(4):
+        taken = gap(xy, queue[2 * k], queue[2 * k + 1])
+        if taken > most_taken:
+            longest, most_taken = k, taken
+        cost -= taken
+    turn(tour, pos, queue[1], queue[6], log)
+    for k in (1, 3, 5):
+        turn(tour, pos, queue[k], queue[k + 1], log)
+    for a, b in ((0, 5), (6, 3), (4, 1), (2, 7)):
+        cost += gap(xy, queue[a], queue[b])
+    for k in range(8):
+        queue[n + queue[k]] = 1
+    return cost, 8, longest
 
 
 @jit
-def _roll(dice: Any, sides: int) -> int:
-    """Return a number below ``sides``, by Marsaglia's xorshift (2003) of 32 bits."""
-    x = dice[0]
-    x ^= (x << 13) & 0xFFFFFFFF
-    x ^= x >> 17
-    x ^= (x << 5) & 0xFFFFFFFF
-    dice[0] = x
-    return int(x % sides)
-
-
-@jit
-def _keep_or_restore(
-    seq: Any, pos: Any, side: Any, touched: Any, best: Any, best_side: Any, better: bool
-) -> None:
-    """Take over what was touched into the best tour, or put it back as it was there."""
-    count = touched[2 * len(seq)]
-    for k in range(count):
-        p = touched[k]
-        if better:
-            best[p] = seq[p]
-            best_side[seq[p]] = side[seq[p]]
-        else:
-            seq[p] = best[p]
-            pos[best[p]] = p
-    for k in range(count):
-        side[seq[touched[k]]] = best_side[seq[touched[k]]]
-
-
-@jit
-def improve(xy: Any, near: Any, seq: Any, side: Any, returns: bool, kicks: int) -> None:
+def improve(ends: Any, at: Any, near: Any, tour: Any, returns: bool, kicks: int) -> None:
     """Shorten a closed tour of strokes in place.
 
-    xy : (2n, 2) mm, the nodes; near : (2n, k) nodes to try beside each, nearest first, −1 for none;
-    seq : (n,) the strokes in order; side : (n,) the end at which each is entered; returns : whether
+    ends : (2n, 2) mm, of the strokes; at : (2n,) the end at which each node lies; near : (2n, k)
+    ends to try beside each, nearest first, −1 for none; tour : (2n,) nodes; returns : whether
     strokes leave the tool where they began; kicks : how often the tour is disturbed and mended.
     """
-    n = len(seq)
-    pos = np.zeros(n, np.int64)
-    touched = np.zeros(2 * n + 1, np.int64)
-    queue = np.zeros(2 * n, np.int64)
+    n = len(tour)
+    pos = np.zeros(n, np.int32)
+    xy = np.zeros((n, 2))
+    queue = np.zeros(2 * n, np.int32)
     for p in range(n):
-        pos[seq[p]] = p
-        queue[p] = seq[p]
+        pos[tour[p]] = p
+        queue[p] = tour[p]
         queue[n + p] = 1
-    _settle(xy, near, seq, pos, side, touched, returns, queue, n)
-    best, best_side = seq.copy(), side.copy()
-    dice = np.full(1, _SEED, np.int64)
-    if n < _FEW:
+        xy[p, 0], xy[p, 1] = ends[at[p], 0], ends[at[p], 1]
+    far = _gaps(ends, near)
+    move = np.zeros(7, np.int64)
+    ban = np.full(n, -1, np.int32)
+    log = np.zeros(1, np.int64)
+    _settle(ends, xy, at, near, far, tour, pos, returns, _FAR, queue, n, log, ban, move)
+    if n < 2 * _FEW:
         return
-    for _ in range(kicks):
-        for k in range(touched[2 * n]):
-            touched[n + touched[k]] = 0
-        touched[2 * n] = 0
-        cost = _kick(xy, seq, pos, side, touched, returns, dice, queue)
-        size = 0
-        for k in range(6):
-            if queue[n + queue[k]] == 0:
-                queue[n + queue[k]] = 1
-                queue[size] = queue[k]
-                size += 1
-        cost -= _settle(xy, near, seq, pos, side, touched, returns, queue, size)
-        _keep_or_restore(seq, pos, side, touched, best, best_side, cost < 0.0)
+    log = np.zeros(_LOG, np.int64)
+    settled, settled_at = tour.copy(), at.copy()
+    dice = np.full(1, _SEED, np.int64)
+    warm = _HEAT * _mean_hop(xy, tour) if n > 2 * _COLD else 0.0
+    longer = 0.0
+    for number in range(kicks):
+        cost, size, longest = _kick(ends, xy, at, tour, pos, returns, dice, queue, log)
+        one, other = queue[2 * longest], queue[2 * longest + 1]
+        ban[one], ban[other] = other, one
+        cost -= _settle(
+            ends, xy, at, near, far, tour, pos, returns, _LOCAL, queue, size, log, ban, move
+        )
+        ban[one], ban[other] = -1, -1
+        chance = roll(dice, 1024) / 1024.0
+        if cost < warm * (1.0 - number / kicks) * chance * chance * chance:
+            longer += cost
+            log[0] = 0
+        else:
+            _undo(ends, xy, at, tour, pos, log)
+    if longer > 0.0:
+        tour[:], at[:] = settled, settled_at
+
+
+@jit
+def _gaps(xy: Any, near: Any) -> Any:
+    """Return the distance (2n, k) to each neighbour, mm."""
+    far = np.zeros(near.shape)
+    for a in range(near.shape[0]):
+        for k in range(near.shape[1]):
+            if near[a, k] >= 0:
+                far[a, k] = gap(xy, a, near[a, k])
+    return far
+
+
+@jit
+def _mean_hop(xy: Any, tour: Any) -> float:
+    """Return the mean length of the hops of a closed tour, mm."""
+    n, total = len(tour), 0.0
+    for p in range(0, n, 2):
+        total += gap(xy, tour[p], tour[p + 1])
+    return 2.0 * total / n

@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 from itertools import permutations, product
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foldmill.kernels.jit import is_compiling
+
 Floats = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 _FEW = 4
 """Strokes of which every order is tried: 384 at most."""
 NEAR = 8
 """Ends that are tried beside each end."""
-KICKS = 30
-"""Kicks per stroke: 500 random lines end 2.4 % above the bound of Held and Karp, 1,000 3.6 %."""
-SMALL = 200
-"""Strokes up to which a sheet is small: a tenth of the kicks leaves the order of a stool as it is,
-and where nothing is compiled each kick takes milliseconds."""
+KICKS = 16
+"""Kicks per stroke at the most: 500 random lines end about 0.5 % above the best order known."""
+SMALL = 384
+"""Strokes below which there are fewer per stroke, in proportion: few strokes are soon in order."""
+FEW_KICKS = 30
+"""Kicks per stroke of the smallest sheets, up to ALIKE in all."""
+MANY = 1000
+"""Strokes beyond which there are fewer per stroke, by the root of their number: with the same time
+per kick, all kicks together grow more slowly than the sheet."""
 LEAST_KICKS = 200
 """Kicks at the least: with these every trial of five strokes was ordered as well as can be."""
-MOST_KICKS = 100_000
-"""Kicks at the most, so that a large sheet does not take minutes."""
+ALIKE = 2000
+"""Kicks at the most where nothing is compiled: there each takes milliseconds. Up to 200 strokes the
+order is the same with and without a compiler."""
 
 
 def order(
@@ -36,28 +43,27 @@ def order(
 
     ends : (n, 2, 2) first and last point of each stroke, mm; start : (2,) where the tool is, None
     for anywhere; returns : whether a stroke leaves the tool where it began (an even number of
-    repeats); kicks : how often the order is disturbed and mended again, by default KICKS per
-    stroke, fewer on a small sheet. The same input gives the same order.
+    repeats); kicks : how often the order is disturbed and mended again, by default up to KICKS per
+    stroke. The same input gives the same order.
     """
     count = len(ends)
     if count <= _FEW:
         return _best_of_all(ends, start, returns)
+    from foldmill_fabricate.toolpath.greedy import first_tour
     from foldmill_fabricate.toolpath.loops import improve
 
     nowhere = np.full(2, np.nan)
-    depot = [[nowhere, nowhere if start is None else start]]
-    xy = np.concatenate([ends, depot]).reshape(-1, 2)
-    near = _near(xy, ends)
-    sequence, side = _nearest_first(ends, start, returns)
-    seq = np.append(sequence, count).astype(np.int64)
-    sides = np.append(side, 0).astype(np.int64)
-    improve(xy, near, seq, sides, returns, _kicks(count) if kicks is None else kicks)
-    return _from_depot(seq, sides, returns)
+    depot = [nowhere, nowhere if start is None else start]
+    flat = np.ascontiguousarray(np.concatenate([ends.reshape(-1, 2), depot]))
+    tour, at = first_tour(flat, returns)
+    improve(flat, at, _near(flat), tour, returns, _kicks(count) if kicks is None else kicks)
+    return _from_depot(tour, at)
 
 
 def _kicks(count: int) -> int:
-    each = KICKS // 10 if count <= SMALL else KICKS
-    return min(max(each * count, LEAST_KICKS), MOST_KICKS)
+    each = KICKS * min(1.0, count / SMALL, sqrt(MANY / count))
+    kicks = max(int(each * count), min(FEW_KICKS * count, ALIKE), LEAST_KICKS)
+    return kicks if is_compiling() else min(kicks, ALIKE)
 
 
 def _best_of_all(ends: Floats, start: Floats | None, returns: bool) -> list[tuple[int, bool]]:
@@ -82,62 +88,29 @@ def travelled(
     return total
 
 
-def _near(xy: Floats, ends: Floats) -> NDArray[np.int64]:
-    """Return the nodes to try beside each: the open end first, then the nearest ends."""
+def _near(ends: Floats) -> NDArray[np.int32]:
+    """Return the ends to try beside each, -1 for none; beside a stroke's the open end first.
+
+    ends : (n, 2) mm, the last two where the tour may end and where it begins.
+    """
     from scipy.spatial import cKDTree
 
-    count, near = 2 * len(ends), min(NEAR + 2, 2 * len(ends))
-    places = np.nan_to_num(xy)
-    found = cKDTree(xy[:count]).query(places, k=near)[1].reshape(len(xy), near)
-    own = found // 2 == (np.arange(len(xy)) // 2)[:, None]
-    found = np.where(own, -1, found)
-    table = np.concatenate([np.full((len(xy), 1), count), found], axis=1)
-    loose = ~np.isfinite(xy[:, 0])
-    table[count:, 0] = -1
-    table[loose] = -1
-    return np.ascontiguousarray(table, np.int64)
+    somewhere = np.flatnonzero(np.isfinite(ends[:, 0]))
+    count, near = len(ends) - 2, min(NEAR + 2, len(somewhere))
+    found = somewhere[cKDTree(ends[somewhere]).query(ends[somewhere], k=near)[1]]
+    found[found // 2 == somewhere[:, None] // 2] = -1
+    found = np.take_along_axis(found, np.argsort(found < 0, axis=1, kind="stable"), axis=1)
+    table = np.full((len(ends), 1 + near), -1, np.int32)
+    table[:count, 0] = count
+    table[:count, 1:] = found[:count]
+    table[somewhere[count:], :-1] = found[count:]
+    return table
 
 
-def _nearest_first(ends: Floats, start: Floats | None, returns: bool) -> tuple[Indices, Indices]:
-    """Go to the nearest end that is left, again and again."""
-    from scipy.spatial import cKDTree
-
-    flat = ends.reshape(-1, 2)
-    tree = cKDTree(flat)
-    left = np.ones(len(ends), bool)
-    at = flat[0] if start is None else start
-    sequence: list[int] = []
-    side: list[int] = []
-    while len(sequence) < len(ends):
-        node = _nearest(tree, flat, left, at)
-        stroke, end = divmod(node, 2)
-        left[stroke] = False
-        sequence.append(stroke)
-        side.append(end)
-        at = ends[stroke, end if returns else 1 - end]
-    return np.array(sequence, np.intp), np.array(side, np.intp)
-
-
-def _nearest(tree: object, flat: Floats, left: NDArray[np.bool_], at: Floats) -> int:
-    near = 8
-    while near < len(flat):
-        found = tree.query(at, k=near)[1]  # type: ignore[attr-defined]
-        free = found[left[found // 2]]
-        if len(free):
-            return int(free[0])
-        near *= 4
-    nodes = np.flatnonzero(np.repeat(left, 2))
-    return int(nodes[np.argmin(np.hypot(*(flat[nodes] - at).T))])
-
-
-def _from_depot(
-    seq: NDArray[np.int64], side: NDArray[np.int64], returns: bool
-) -> list[tuple[int, bool]]:
-    """Cut the closed tour at the depot; turn it round where the depot was."""
-    depot = len(seq) - 1
-    at = int(np.flatnonzero(seq == depot)[0])
-    way = np.r_[seq[at + 1 :], seq[:at]]
-    ends = side[way]
-    if side[depot] == 1:  # left at the node where the tour may end: it was turned round
-        way, ends = way[::-1], (ends if returns else 1 - ends)[::-1]
-    return [(int(s), bool(e)) for s, e in zip(way, ends, strict=True)]
+def _from_depot(tour: NDArray[np.int32], at: NDArray[np.int32]) -> list[tuple[int, bool]]:
+    """Cut the closed tour at the depot, and read it from where the tool comes."""
+    depot = len(tour) - 1
+    place = int(np.flatnonzero(tour == depot)[0])
+    way = np.roll(tour, -place) if place % 2 == 0 else np.roll(tour[::-1], place + 1)
+    entered = way[1:-1:2]
+    return list(zip((entered // 2).tolist(), (at[entered] % 2 == 1).tolist(), strict=True))
