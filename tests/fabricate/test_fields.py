@@ -16,15 +16,18 @@ from foldmill.finding import has_errors
 from foldmill_fabricate import folder, jobsheet, shelf
 from foldmill_fabricate.coupon.make import make as coupon
 from foldmill_fabricate.delivering import send_job
-from foldmill_fabricate.formats import hpgl, svg
+from foldmill_fabricate.formats import svg
 from foldmill_fabricate.operators import SimulatedOperator
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.plotter.link import open_port
+from foldmill_fabricate.plotter.sender import send
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.presets import Preset
 from foldmill_fabricate.sending import open_job
 from foldmill_fabricate.sheet import seen_by_machine
 from foldmill_fabricate.verify import verify
+from foldmill_fabricate.writers import writer
 
 MODELS = ("materials", "machines", "presets", "handbook", "units", "shelf")
 """Rooms that describe presets: reading a field there is no use of it."""
@@ -38,6 +41,7 @@ JOBS: list[tuple[str, str, str | None, str | None]] = [
     ("paper-80-120", "hp-7475a", "pen", "pen"),
     ("pet-0.25", "grbl-laser", "perforation", "through-cut"),
     ("pp-0.5", "silhouette-like", None, None),
+    ("paper-80-120", "grbl-drag-knife", "pen", "through-cut"),
 ]
 
 
@@ -96,14 +100,19 @@ def work(into: Path, material: str, machine: str, score: str | None, cut: str | 
         options |= {"blank": (200, 200), "relief": "all" if whole else "none"}
     plan = make(fold, shelf.material(material), used, **options)  # type: ignore[arg-type]
     assert svg.write(plan, fold)
-    if used.language == "hpgl":
-        assert not has_errors(verify(plan, fold.pattern, hpgl.write(plan, fold)).findings)
+    spoken = writer(used)
+    assert spoken is not None
+    assert not has_errors(verify(plan, fold.pattern, spoken.write(plan, fold)).findings)
     assert jobsheet.words.setup_rows(plan)
     if whole:
         assert coupon(shelf.material(material), used)
         seven = Simulator(shelf.machine("hp-7550a"))
         seven.write(b"IN;IN;\x1b.A")
         seven.rest()
+        slow = used.serial.model_copy(update={"handshake": "paced", "answers": False})
+        blind = used.model_copy(update={"serial": slow})
+        with open_port("sim://paced?machine=generic-hpgl-600&answers=no", blind) as port:
+            assert send(b"IN;PU40,40;PD80,80;PU;", port, blind).bytes
         folder.write(fold, plan, into, ["hpgl"])
         holes = [(hole.x, hole.y) for hole in plan.holes]
         marks = seen_by_machine(plan, Face.REVERSE, holes).tolist()

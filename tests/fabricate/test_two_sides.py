@@ -129,7 +129,8 @@ def test_an_offset_of_the_other_flip_is_not_made_up_for_and_planning_says_so() -
 
 
 def test_where_only_drawings_are_made_planning_says_what_to_shift_by_hand() -> None:
-    machine = with_offset(hand_made.machine("silhouette-like"), **OFF)
+    own = hand_made.machine("silhouette-like").model_copy(update={"language": "dmpl"})
+    machine = with_offset(own, **OFF)  # a language that nobody writes
     plan = make(hand_made.fold(), hand_made.material(), machine, blank=BLANK)
     [told] = [str(each) for each in plan.findings if each.code == "two-sides"]
     assert "+0.35, -0.20 mm and +0.050°" in told
