@@ -8,6 +8,7 @@ from foldmill_fabricate.ladders import LadderKind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, PenLine, Perforation
 from foldmill_fabricate.plan.relief import SMALLEST, diameter
+from foldmill_fabricate.writers import writer
 
 Values = tuple[float, ...]
 
@@ -60,7 +61,7 @@ def _depths(material: Material, machine: Machine) -> Values | str:
             f"The depth ladder is left out: {machine.slug} works through a whole face without a "
             f"stop, so that nobody can set the blade between two rungs."
         )
-    if machine.language != "hpgl":
+    if writer(machine) is None:
         return _no_programs("depth", machine)
     step = next(step for thickness, step in STEPS if material.thickness >= thickness)
     most = material.thickness - score.web_min
@@ -74,7 +75,7 @@ def _forces(material: Material, machine: Machine) -> Values | str:
         return "The force ladder is left out: a pen's line is creased by hand."
     if tools.max_force is None or not machine.dialect.force:
         return f"The force ladder is left out: {machine.slug} sets no force from a program."
-    if machine.language != "hpgl":
+    if writer(machine) is None:
         return _no_programs("force", machine)
     set_now = tools.force(score.force)
     least, grain = max(1.0, tools.min_force), 5.0 if set_now >= 50 else 1.0
@@ -86,7 +87,7 @@ def _repeats(material: Material, machine: Machine) -> Values | str:
     now = material.score.repeats
     if isinstance(material.score, PenLine):
         return "The repeats ladder is left out: a pen's line is creased by hand."
-    if machine.language != "hpgl":
+    if writer(machine) is None:
         return _no_programs("repeats", machine)
     return _sorted(float(n) for n in range(max(1, now - 2), min(20, now + 2) + 1))
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from coupons import coupon, declared
 
+from foldmill_fabricate import shelf
 from foldmill_fabricate.coupon import lettering, words
+from foldmill_fabricate.coupon.make import make
 from foldmill_fabricate.errors import DoesNotFit
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.materials import Perforation
@@ -69,7 +71,6 @@ def test_no_rung_is_deeper_than_the_web_allows_nor_stronger_than_the_machine() -
         ({"machine": "generic-hpgl-pens"}, "depth", "works through a whole face"),
         (CASES[6], "force", "creased by hand"),
         (CASES[6], "relief", "makes no holes"),
-        ({"machine": "silhouette-like"}, "force", "works from drawings"),
         ({"blank": (300.0, 300.0)}, "relief", "has no room"),
     ],
 )
@@ -185,3 +186,16 @@ def test_every_line_on_how_to_read_stands_by_itself(case: dict[str, Any]) -> Non
     ladders = [text for name, text in told.items() if not name.startswith(("Vernier", "Bars"))]
     assert not [text for text in ladders if "the same" in text or "as before" in text]
     assert all("{" not in text for text in told.values())
+
+
+def test_a_machine_that_works_from_drawings_tries_no_figures_of_its_own() -> None:
+    own = shelf.machine("silhouette-like").model_copy(update={"language": "dmpl"})
+    _, plan = make(shelf.material("card-250"), own)
+    assert not {"depth", "force", "repeats"} & {*kinds(plan)}
+    assert sum("works from drawings" in each for each in declared(plan).left_out) == 3
+
+
+def test_machines_of_every_language_try_what_their_programs_can_set() -> None:
+    for machine in ("silhouette-like", "generic-hpgl-600"):
+        _, plan = make(shelf.material("card-250"), shelf.machine(machine))
+        assert {"force", "repeats"} <= {*kinds(plan)}
