@@ -283,8 +283,8 @@ def run_growth() -> None:
         rows.append((int(count), seconds, memory))
         print(f"{int(count):8} creases {seconds:8.2f} s {memory:8.0f} MB more than the import")
     (n, s, m), (N, S, M) = rows[0], rows[-1]
-    time_, space = (np.log(b / a) / np.log(N / n) for a, b in ((s, S), (m, M)))
-    print(f"exponent of time {time_:.2f}, of memory {space:.2f}")
+    print(f"exponent of time {np.log(S / s) / np.log(N / n):.2f}", end="")
+    print(f", of memory {np.log(M / m) / np.log(N / n):.2f}" if m else ", of memory none seen")
 
 
 def grow(side: int) -> tuple[int, float, float]:
