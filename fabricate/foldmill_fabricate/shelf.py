@@ -8,8 +8,6 @@ it is asked for and when presets are listed; it hides no other.
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -19,6 +17,7 @@ from pydantic import BaseModel
 from foldmill import FoldmillError, installed
 from foldmill.errors import UnknownName, UnreadableFile
 from foldmill_fabricate import presets
+from foldmill_fabricate.config import config_folder
 from foldmill_fabricate.hooks import MACHINES, MATERIALS
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -36,12 +35,6 @@ class Shelf(NamedTuple):
     presets: Mapping[str, Material | Machine]
     owners: dict[str, str]
     broken: tuple[str, ...]
-
-
-def config_folder() -> Path:
-    """Return the folder of the user's own presets; it need not exist."""
-    home = os.environ.get("APPDATA" if sys.platform == "win32" else "XDG_CONFIG_HOME")
-    return (Path(home) if home else Path.home() / ".config") / "foldmill"
 
 
 def material(slug: str) -> Material:

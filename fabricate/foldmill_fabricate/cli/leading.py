@@ -10,8 +10,9 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill_fabricate.cli.making import Folder
+from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
-from foldmill_fabricate.cli.running import PassChoice, read_marks, stopping_on_signals
+from foldmill_fabricate.cli.running import PassChoice, stopping_on_signals
 
 if TYPE_CHECKING:
     from foldmill_fabricate.jogging import Jogger

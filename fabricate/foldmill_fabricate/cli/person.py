@@ -159,7 +159,7 @@ def _back(text: str, request: Request) -> Answer:
     at_marks = request.plan.registration.kind in {"holes", "pins"}
     if not touched or request.fitted or request.face == "front" or not at_marks:
         return answer
-    from foldmill_fabricate.cli.running import read_marks
+    from foldmill_fabricate.cli.marks import read_marks
 
     _tell("Measure where its registration marks are seen now, mm on the mat, at least two.")
     marks = tuple(read_marks(_ask("x1,y1;x2,y2;…")))

@@ -7,7 +7,6 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +14,7 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill_fabricate.cli.making import Folder, temperatures
+from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
@@ -283,18 +283,6 @@ def demo(
     from foldmill_fabricate.cli.demo import make_stool
 
     make_stool(output, typer.echo)
-
-
-def read_marks(text: str) -> list[tuple[float, float]]:
-    """Read x1,y1;x2,y2;… in mm."""
-    try:
-        pairs = [mark.split(",") for mark in text.split(";") if mark.strip()]
-        read = [(float(x), float(y)) for x, y in pairs]
-        if not all(isfinite(value) for mark in read for value in mark):
-            raise ValueError
-    except ValueError:
-        raise FoldmillError(f"--marks: write x1,y1;x2,y2;… in mm, not {text!r}.") from None
-    return read
 
 
 class ProgressLine:

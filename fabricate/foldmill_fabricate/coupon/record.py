@@ -11,7 +11,8 @@ from pydantic import ValidationError
 
 from foldmill.errors import InvalidInput, UnreadableFile
 from foldmill.refusals import explain
-from foldmill_fabricate import presets, shelf
+from foldmill_fabricate import presets
+from foldmill_fabricate.config import config_folder
 from foldmill_fabricate.coupon.answers import NAME, Answers, plain
 from foldmill_fabricate.coupon.readings import Found, measure
 from foldmill_fabricate.files import write_whole
@@ -104,7 +105,7 @@ def save(recorded: Recorded, force: bool) -> list[Path]:
     texts = {}
     for kind, preset in (("materials", recorded.material), ("machines", recorded.machine)):
         if preset is not None:
-            path = shelf.config_folder() / kind / f"{preset.slug}.toml"
+            path = config_folder() / kind / f"{preset.slug}.toml"
             texts[path] = written(preset, f"{preset.provenance}")
     there = [str(path) for path in texts if path.exists()]
     if there and not force:

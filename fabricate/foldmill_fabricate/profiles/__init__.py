@@ -18,8 +18,8 @@ from pydantic import Field
 
 from foldmill.errors import UnknownName, UnreadableFile
 from foldmill_fabricate import presets
+from foldmill_fabricate.config import config_folder
 from foldmill_fabricate.presets import Preset, Sourced
-from foldmill_fabricate.shelf import config_folder
 
 DEFAULT = "foldmill"
 """The profile that is taken where none is asked for."""

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from foldmill_fabricate.plotter.ledger.values import State
 
-if TYPE_CHECKING:
-    from foldmill_fabricate.plotter.ledger.ledger import Ledger
+
+class Keeper(Protocol):
+    """Who writes down how far a run is."""
+
+    def write(self, run: Run, sent: int, acked: int) -> None:
+        """Raise Fenced where the run lost its token."""
+        ...
+
+    def end(self, run: Run, state: State, why: str) -> None:
+        """Raise Fenced where the run lost its token."""
+        ...
 
 
 class Run:
     """Holds a program's token. Every call raises Fenced once somebody else holds it."""
 
     def __init__(
-        self, ledger: Ledger, sheet: str, number: int, token: int, first: int, strokes: int
+        self, ledger: Keeper, sheet: str, number: int, token: int, first: int, strokes: int
     ) -> None:
         self._ledger, self._strokes = ledger, strokes
         self.sheet, self.number, self.token, self.first = sheet, number, token, first
