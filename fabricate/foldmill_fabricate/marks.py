@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.passes import Face, Fit, Plan, Role
-from foldmill_fabricate.sheet import NOMINAL, on_carrier, seen_by_machine, turned
+from foldmill_fabricate.sheet import NOMINAL, on_carrier, seen_by_machine, strokes, turned
 
 Floats = NDArray[np.float64]
 
@@ -96,18 +96,10 @@ def targets(plan: Plan) -> Floats:
 
 def witness_middle(plan: Plan) -> Floats | None:
     """Return the middle (2,) of the witness mark on the sheet, mm; None where there is none."""
-    points = [
-        point
-        for work in plan.passes
-        for setup in work.setups
-        for operation in setup.operations
-        if operation.role is Role.WITNESS
-        for stroke in operation.strokes
-        for point in stroke.points
-    ]
-    if not points:
+    made = strokes(plan, Role.WITNESS)
+    if not made:
         return None
-    spots = np.array(points)
+    spots = np.vstack(made)
     middle: Floats = (spots.min(axis=0) + spots.max(axis=0)) / 2
     return middle
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill_fabricate.machines import Axes, Machine
-from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Sheet
+from foldmill_fabricate.passes import Face, Fit, Flip, Placement, Plan, Role, Sheet
 
 Floats = NDArray[np.float64]
 
@@ -88,3 +88,16 @@ def seen_by_machine(plan: Plan, face: Face, points: ArrayLike, fit: Fit | None =
         return on_carrier(laid_off(seen, plan), plan.sheet)
     found: Floats = turned(on_carrier(seen, plan.sheet), fit.angle) + np.array([fit.dx, fit.dy])
     return found
+
+
+def strokes(plan: Plan, role: Role, face: Face | None = None) -> list[Floats]:
+    """Return the strokes of a role, (n, 2) mm each on the sheet, of one face or of both."""
+    return [
+        np.asarray(stroke.points, float)
+        for work in plan.passes
+        if face is None or work.face is face
+        for setup in work.setups
+        for operation in setup.operations
+        if operation.role is role
+        for stroke in operation.strokes
+    ]

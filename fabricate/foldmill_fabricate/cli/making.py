@@ -80,6 +80,23 @@ class ProcessChoice(StrEnum):
     PEN = "pen"
 
 
+MaterialSlug = Annotated[str, typer.Option(help="A slug of `foldmill materials`.")]
+MachineSlug = Annotated[str, typer.Option(help="A slug of `foldmill machines`.")]
+BlankSize = Annotated[
+    str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the material's stock size.")
+]
+CarrierSize = Annotated[
+    str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the machine's mat.")
+]
+FlipKind = Annotated[FlipChoice, typer.Option(help="How the sheet is turned over.")]
+ScoreProcess = Annotated[
+    ProcessChoice | None,
+    typer.Option(help="How creases are made; default: the first the machine can do."),
+]
+Formats = Annotated[
+    str | None,
+    typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
+]
 Folder = Annotated[Path, typer.Argument(help="A job folder, as `foldmill plan` writes it.")]
 
 
@@ -92,26 +109,15 @@ def add_to(app: typer.Typer) -> None:
 def plan(
     file: FoldFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="The job folder to write.")],
-    material: Annotated[str, typer.Option(help="A slug of `foldmill materials`.")] = "pp-0.75",
-    machine: Annotated[
-        str, typer.Option(help="A slug of `foldmill machines`.")
-    ] = "generic-hpgl-600",
-    blank: Annotated[
-        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the material's stock size.")
-    ] = None,
-    carrier: Annotated[
-        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the machine's mat.")
-    ] = None,
-    flip: Annotated[FlipChoice, typer.Option(help="How the sheet is turned over.")] = (
-        FlipChoice.LEFT_RIGHT
-    ),
+    material: MaterialSlug = "pp-0.75",
+    machine: MachineSlug = "generic-hpgl-600",
+    blank: BlankSize = None,
+    carrier: CarrierSize = None,
+    flip: FlipKind = FlipChoice.LEFT_RIGHT,
     unassigned: Annotated[
         UnassignedChoice | None, typer.Option(help="Where unassigned creases are scored.")
     ] = None,
-    score: Annotated[
-        ProcessChoice | None,
-        typer.Option(help="How creases are made; default: the first the machine can do."),
-    ] = None,
+    score: ScoreProcess = None,
     outline: Annotated[
         ProcessChoice | None,
         typer.Option(help="How the outline is made; default: the first the machine can do."),
@@ -133,10 +139,7 @@ def plan(
         str | None,
         typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24."),
     ] = None,
-    to: Annotated[
-        str | None,
-        typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
-    ] = None,
+    to: Formats = None,
     planarise: Planarise = False,
     profile: Annotated[
         str, typer.Option(help="Names and colours of the drawings' layers: a name or a TOML file.")

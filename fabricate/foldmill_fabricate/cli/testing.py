@@ -9,8 +9,15 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill_fabricate.cli.making import (
+    BlankSize,
+    CarrierSize,
     FlipChoice,
+    FlipKind,
+    Formats,
+    MachineSlug,
+    MaterialSlug,
     ProcessChoice,
+    ScoreProcess,
     describe,
     formats_for,
     presets,
@@ -38,23 +45,12 @@ def coupon(
             help="A coupon's folder, or the answers in it: make presets of what was read."
         ),
     ] = None,
-    material: Annotated[str, typer.Option(help="A slug of `foldmill materials`.")] = "pp-0.75",
-    machine: Annotated[
-        str, typer.Option(help="A slug of `foldmill machines`.")
-    ] = "generic-hpgl-600",
-    blank: Annotated[
-        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the material's stock size.")
-    ] = None,
-    carrier: Annotated[
-        str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the machine's mat.")
-    ] = None,
-    flip: Annotated[FlipChoice, typer.Option(help="How the sheet is turned over.")] = (
-        FlipChoice.LEFT_RIGHT
-    ),
-    score: Annotated[
-        ProcessChoice | None,
-        typer.Option(help="How creases are made; default: the first the machine can do."),
-    ] = None,
+    material: MaterialSlug = "pp-0.75",
+    machine: MachineSlug = "generic-hpgl-600",
+    blank: BlankSize = None,
+    carrier: CarrierSize = None,
+    flip: FlipKind = FlipChoice.LEFT_RIGHT,
+    score: ScoreProcess = None,
     outline: Annotated[
         ProcessChoice | None,
         typer.Option(help="How cuts are made; default: the first the machine can do."),
@@ -66,10 +62,7 @@ def coupon(
     force: Annotated[
         bool, typer.Option("--force", help="With --record: write over presets that are there.")
     ] = False,
-    to: Annotated[
-        str | None,
-        typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
-    ] = None,
+    to: Formats = None,
     as_json: AsJson = False,
 ) -> None:
     """Make a test sheet for depth, spacing, relief and flip, or record what was read from one."""

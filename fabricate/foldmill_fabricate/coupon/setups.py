@@ -18,8 +18,9 @@ from foldmill_fabricate.coupon.lines import Line
 from foldmill_fabricate.ladders import Coupon
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Face, Flip, Gate, Operation, Pass, Role, SetUp, Sheet, Stroke
+from foldmill_fabricate.passes import Face, Flip, Operation, Pass, Role, SetUp, Sheet, Stroke
 from foldmill_fabricate.plan.registration import Registration, hole_rim
+from foldmill_fabricate.plan.setups import gates
 from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import order
 
@@ -143,6 +144,7 @@ def _number(drafts: list[_Draft], machine: Machine) -> tuple[Pass, ...]:
     setups: dict[Face, list[SetUp]] = {}
     before: _Draft | None = None
     for number, draft in enumerate(drafts, start=1):
+        changes = before is not None and before.tooling != draft.tooling
         setup = SetUp(
             number=number,
             name=draft.name,
@@ -151,21 +153,9 @@ def _number(drafts: list[_Draft], machine: Machine) -> tuple[Pass, ...]:
             exposure=draft.exposure,
             force=draft.force,
             speed=draft.speed,
-            gates=_gates(before, draft, machine),
+            gates=gates(before.face if before else None, draft.face, changes, machine),
             operations=draft.operations,
         )
         setups.setdefault(draft.face, []).append(setup)
         before = draft
     return tuple(Pass(face=face, setups=tuple(own)) for face, own in setups.items())
-
-
-def _gates(before: _Draft | None, draft: _Draft, machine: Machine) -> tuple[Gate, ...]:
-    gates = []
-    if before is None:
-        gates.append(Gate.LOAD)
-    elif before.face is not draft.face:
-        gates.append(Gate.FLIP)
-    changes = before is None or before.tooling != draft.tooling
-    if changes and machine.tools.change == "operator":
-        gates.append(Gate.TOOL)
-    return tuple(gates)

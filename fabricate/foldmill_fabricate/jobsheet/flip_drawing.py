@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from foldmill_fabricate.passes import Face, Plan, Role
 from foldmill_fabricate.pictures import canvas
-from foldmill_fabricate.pictures.sheet import axis_line, strokes
-from foldmill_fabricate.sheet import flipped
+from foldmill_fabricate.pictures.sheet import axis_line
+from foldmill_fabricate.sheet import flipped, strokes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.passes import Plan, Role
-from foldmill_fabricate.pictures.sheet import strokes
-from foldmill_fabricate.sheet import flipped
+from foldmill_fabricate.sheet import flipped, strokes
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from foldmill_fabricate.ladders import Coupon, Vernier
 from foldmill_fabricate.passes import Face, Plan, Role
-from foldmill_fabricate.pictures import canvas, sheet
+from foldmill_fabricate.pictures import canvas
 from foldmill_fabricate.pictures.sheet import Floats
+from foldmill_fabricate.sheet import strokes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +46,7 @@ def coupon_picture(plan: Plan, coupon: Coupon) -> bytes:
 def _draw(axes: Axes, plan: Plan, off: float = 0.0) -> None:
     """Draw all lines; off : mm by which those of the reverse lie to the right."""
     for roles, face, colour, width in LOOKS:
-        found = [line for role in roles for line in sheet.strokes(plan, role, face)]
+        found = [line for role in roles for line in strokes(plan, role, face)]
         shift = np.array([off if face is Face.REVERSE else 0.0, 0.0])
         canvas.add_lines(axes, [line + shift for line in found], color=colour, linewidth=width)
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from foldmill_fabricate.passes import Face, Flip, Plan, Role, Sheet
 from foldmill_fabricate.pictures import canvas
+from foldmill_fabricate.sheet import strokes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,19 +72,6 @@ def draw(axes: Axes, plan: Plan, letters: float = 9) -> None:
     axes.legend(
         loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, frameon=False, fontsize=letters
     )
-
-
-def strokes(plan: Plan, role: Role, face: Face | None = None) -> list[Floats]:
-    """Return the strokes of a role, (n, 2) mm each, of one face or of both."""
-    return [
-        np.asarray(stroke.points, float)
-        for work in plan.passes
-        if face is None or work.face is face
-        for setup in work.setups
-        for operation in setup.operations
-        if operation.role is role
-        for stroke in operation.strokes
-    ]
 
 
 def copies(plan: Plan) -> list[tuple[int, tuple[float, float]]]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Budget, Plan, Role, Share
+from foldmill_fabricate.sheet import strokes
 
 Floats = NDArray[np.float64]
 
@@ -68,18 +69,10 @@ def _held(plan: Plan) -> Floats:
 
 def _reach(plan: Plan) -> float:
     """Return how far the farthest scored point is from the middle of what holds the sheet, mm."""
-    points = [
-        point
-        for work in plan.passes
-        for setup in work.setups
-        for operation in setup.operations
-        if operation.role is Role.SCORE
-        for stroke in operation.strokes
-        for point in stroke.points
-    ]
-    if not points:
+    scores = strokes(plan, Role.SCORE)
+    if not scores:
         return 0.0
-    away = np.array(points) - _held(plan).mean(axis=0)
+    away = np.vstack(scores) - _held(plan).mean(axis=0)
     return float(np.hypot(*away.T).max())
 
 

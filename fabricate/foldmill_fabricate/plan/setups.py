@@ -124,6 +124,7 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
     before: _Draft | None = None
     for number, draft in enumerate(drafts, start=1):
         process = material.score if draft.process == "score" else material.cut
+        changes = before is not None and before.process != draft.process
         setup = SetUp(
             number=number,
             name=draft.name,
@@ -132,7 +133,7 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
             exposure=process.exposure,
             force=machine.tools.force(process.force),
             speed=process.speed,
-            gates=_gates(before, draft, machine),
+            gates=gates(before.face if before else None, draft.face, changes, machine),
             swivel_force=_swivel_force(draft, material, machine),
             operations=draft.operations,
         )
@@ -152,13 +153,17 @@ def _swivel_force(draft: _Draft, material: Material, machine: Machine) -> float:
     return material.cut.swivel_force if possible and draft.process == "cut" else 0.0
 
 
-def _gates(before: _Draft | None, draft: _Draft, machine: Machine) -> tuple[Gate, ...]:
-    gates = []
+def gates(before: Face | None, face: Face, changes: bool, machine: Machine) -> tuple[Gate, ...]:
+    """Return what the operator does before a set-up on a face.
+
+    before : the face of the set-up before it, None for the first; changes : whether it takes
+    another tool or setting.
+    """
+    asked = []
     if before is None:
-        gates.append(Gate.LOAD)
-    elif before.face is not draft.face:
-        gates.append(Gate.FLIP)
-    changes = before is None or before.process != draft.process
-    if changes and machine.tools.change == "operator":
-        gates.append(Gate.TOOL)
-    return tuple(gates)
+        asked.append(Gate.LOAD)
+    elif before is not face:
+        asked.append(Gate.FLIP)
+    if (before is None or changes) and machine.tools.change == "operator":
+        asked.append(Gate.TOOL)
+    return tuple(asked)

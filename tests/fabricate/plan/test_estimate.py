@@ -14,10 +14,7 @@ from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
-from foldmill_fabricate.plotter.link import open_port
-from foldmill_fabricate.plotter.sender import send
-from foldmill_fabricate.plotter.simulator import devices
-from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.simulator.trial import clocked
 
 
 def preset(family: str, name: str) -> Fold:
@@ -37,16 +34,7 @@ JOBS: dict[str, tuple[str, Callable[[], Fold]]] = {
 
 def simulated(plan: Plan, fold: Fold, used: Machine) -> tuple[float, float]:
     """Return seconds on the clock and seconds of motion for all programs, one after the other."""
-    simulator = Simulator(used)
-    url = devices.plug("estimate", simulator)
-    try:
-        for program in hpgl.write(plan, fold).values():
-            with open_port(url, used) as port:
-                send(program, port, used)
-                simulator.rest()
-    finally:
-        devices.unplug(url)
-    return simulator.clock.now(), simulator.device.carriage.tally.moving
+    return clocked(hpgl.write(plan, fold).values(), used)
 
 
 @pytest.mark.parametrize("name", JOBS)

@@ -12,7 +12,7 @@ from math import ceil
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
-from foldmill_fabricate.plotter.handshakes.hp import HpSession
+from foldmill_fabricate.plotter.handshakes.hp import MET, HpSession
 from foldmill_fabricate.plotter.handshakes.proving import Proving
 from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.program import Job
@@ -31,7 +31,6 @@ _NAP = 0.02
 """Share of the time without a change that is waited before the next question."""
 _LATE = 0.8
 """s that a proof waits for a good moment for ESC.E."""
-_MET = 10
 
 
 class Asked(Proving):
@@ -223,7 +222,7 @@ class Asked(Proving):
 
     def _judge(self, error: int) -> None:
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
-        told = _lost(0 if error == _MET else error)
+        told = _lost(0 if error == MET else error)
         if told:
             raise PlotterError(told)
         self._clean, self._cleaned = self._proved, self.session.clock.now()

@@ -15,7 +15,7 @@ from foldmill_fabricate.plotter.session import SILENCE, Session
 
 _FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
-_MET = 10
+MET = 10
 """I/O error of a question that met another answer: it was dropped, and nothing else."""
 _PAUSED = 16 | 32
 """Bits of the extended status: paused by a key, or a lever up."""
@@ -91,7 +91,7 @@ class HpSession(Session):
         """Return the machine's I/O error; 0 for none, for silence, and for questions that met."""
         patience = SILENCE if deadline is None else deadline - self.clock.now()
         found = self.control(_ERROR, patience) or 0
-        return 0 if found == _MET else found
+        return 0 if found == MET else found
 
     def paused(self) -> bool:
         """Whether somebody has paused the machine at its own keys."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -91,3 +91,17 @@ def stream(
         return Trial(delivery, device.traffic, gauge.use, expected, moving)
     finally:
         devices.unplug(url)
+
+
+def clocked(programs: Iterable[bytes], machine: Machine) -> tuple[float, float]:
+    """Return seconds on the clock and seconds of motion for programs sent one after the other."""
+    simulator = Simulator(machine)
+    url = devices.plug("clocked", simulator)
+    try:
+        for program in programs:
+            with open_port(url, machine) as port:
+                send(program, port, machine)
+                simulator.rest()
+    finally:
+        devices.unplug(url)
+    return simulator.clock.now(), simulator.device.carriage.tally.moving
