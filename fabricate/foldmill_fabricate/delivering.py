@@ -35,6 +35,7 @@ from foldmill_fabricate.plotter.ledger import (
 from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.transcript import recorded
+from foldmill_fabricate.plotter.wish import Wish
 from foldmill_fabricate.sending import Job
 
 __all__ = ["NEW", "Sent", "Tell", "choose_sheet", "own_ledger", "send_job"]
@@ -78,16 +79,17 @@ def send_job(
     sheet: str = "",
     test_cut: bool = False,
     transcript: Path | None = None,
+    wish: Wish | None = None,
 ) -> Iterator[Sent]:
     """Send the programs of these faces in order of work, yielding after each.
 
     url : any address pyserial opens, or ``sim://NAME``. tell : hears of every instruction.
     ledger : by default the user's own. sheet : the id of a sheet that is begun, or NEW; by default
     the one that waits for these faces, else a new one. test_cut : cut one in the waste for each
-    process without asking, whether the preset is tested or not. transcript : a file for what goes
-    over the wire. Raises CannotSend where the operator says no or answers what cannot be,
-    LedgerRefused where the sheet is in doubt, PlotterError where the line fails. It ends early
-    after a program that is not done.
+    process without asking, whether the preset is tested or not. transcript : a file for what
+    goes over the wire. wish : by which another thread pauses or stops it. Raises CannotSend
+    where the operator says no or answers what cannot be, LedgerRefused where the sheet is in
+    doubt, PlotterError where the line fails. It ends early after a program that is not done.
     """
     book = ledger or own_ledger(url)
     with (
@@ -96,7 +98,7 @@ def send_job(
         recorded(opened, link.clock_of(opened), transcript) as port,
     ):
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
-        bench = _Bench(job, operator, book, laid, port, device, test_cut)
+        bench = _Bench(job, operator, book, laid, port, device, test_cut, wish)
         bench.find_fit()
         for number, part in enumerate(job.plan.programs):
             if part.face in faces:
@@ -119,9 +121,10 @@ class _Bench:
         port: Any,
         device: str,
         test_cut: bool,
+        wish: Wish | None,
     ) -> None:
         self.job, self.operator, self.ledger, self.sheet = job, operator, ledger, laid.id
-        self.port, self.device, self.test_cut = port, device, test_cut
+        self.port, self.device, self.test_cut, self.wish = port, device, test_cut, wish
         self.returned = laid.is_begun
         """Whether somebody has worked on this sheet, and went away since."""
         self.worked = False
@@ -247,7 +250,7 @@ class _Work:
         attempt = 0
         while wanted:
             program = trials.trial_program(bench.job, self.part.face, setup, attempt)
-            delivery = sender.send(program, bench.port, bench.job.plan.machine)
+            delivery = sender.send(program, bench.port, bench.job.plan.machine, wish=bench.wish)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
@@ -275,6 +278,7 @@ class _Work:
                 progress=tell,
                 start=start,
                 book=self.run,
+                wish=self.bench.wish,
             )
         except Fenced:
             raise

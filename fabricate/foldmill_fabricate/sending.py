@@ -6,7 +6,7 @@ Nothing is sent that was not verified in this very call, so an edited file never
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -15,8 +15,11 @@ from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.marks import MarkFit, check_witness, fit_marks
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.verify import Verification, read_folder, verify, verify_files
+from foldmill_fabricate.verify import JobFiles, Verification, read_folder, verify, verify_files
 from foldmill_fabricate.writers import writer
+
+Prover = Callable[[Path, JobFiles], Verification | None]
+"""Proves what was read of a folder; raises CannotSend where it must not be sent."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +28,8 @@ class Job:
 
     plan: Plan
     programs: Mapping[str, bytes]
-    proof: Verification
+    proof: Verification | None
+    """None where another process has proved it."""
     fit: MarkFit | None
     pattern: CreasePattern
     path: Path
@@ -61,20 +65,28 @@ class Job:
         return replace(self, programs=programs, proof=proof, fit=fit, marks=measured)
 
 
+def prove(path: Path, files: JobFiles) -> Verification:
+    """Prove a folder in this process; raises CannotSend where it must not be sent."""
+    proof = verify_files(files)
+    _refuse(proof, path)
+    return proof
+
+
 def open_job(
     path: Path,
     marks: Sequence[tuple[float, float]] = (),
     witness: tuple[float, float] | None = None,
+    prover: Prover = prove,
 ) -> Job:
     """Read a job folder and prove it; raises CannotSend where it must not be sent.
 
     marks : where registration marks are seen after the flip, carrier coordinates in mm; the reverse
     programs are written anew to fit, and proved again. witness : where the witness mark is seen.
+    prover : by default in this process.
     """
     files = read_folder(path)
     plan = files.plan
-    proof = verify_files(files)
-    _refuse(proof, path)
+    proof = prover(path, files)
     if not plan.programs:
         raise CannotSend(f"{path} holds drawings only; plan it again without --to.")
     unproved = [part.name for part in plan.programs if part.name not in files.programs]

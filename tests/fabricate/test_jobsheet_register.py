@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from fabricate.verify.test_register import made
 
-from foldmill_fabricate.cli.instructions import instruction
 from foldmill_fabricate.gates import Request
+from foldmill_fabricate.instructions import instruction
 from foldmill_fabricate.jobsheet import register
 from foldmill_fabricate.passes import Face, Gate, Plan
 

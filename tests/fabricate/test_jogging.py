@@ -46,6 +46,7 @@ def test_the_box_is_traced_with_the_tool_up_and_nothing_is_cut(
     job = small_job(tmp_path)
     for face in Face:
         corners = jogging.box(job.plan, None, [face])
+        assert job.proof is not None
         drawn = np.vstack([line.points for line in job.proof.lines if line.face is face])
         size = corners[2] - corners[0]
         assert np.allclose(size, np.ptp(drawn, axis=0), atol=0.05)

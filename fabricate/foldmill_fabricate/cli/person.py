@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate import gates
-from foldmill_fabricate.cli import instructions
+from foldmill_fabricate import gates, instructions
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.gates import Answer, Request
 from foldmill_fabricate.operators import SimulatedOperator, Verdict, said

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from fabricate.bench import small_plan
 
-from foldmill_fabricate.cli.instructions import instruction
 from foldmill_fabricate.cli.person import Person
 from foldmill_fabricate.gates import Answer, Request
+from foldmill_fabricate.instructions import instruction
 from foldmill_fabricate.operators import Verdict
 from foldmill_fabricate.passes import Face, Gate
 from foldmill_fabricate.plotter.ledger import Entry, Program, Record, Said, State, Word

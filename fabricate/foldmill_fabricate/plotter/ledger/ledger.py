@@ -32,18 +32,23 @@ from foldmill_fabricate.plotter.ledger.values import (
 )
 from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
 
-_LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
+LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
 """Of a sheet's id: none that a hand-written one is mistaken for."""
 
 
-def ledger_file() -> Path:
-    """Return the file of this user's ledger; its folder need not exist.
+def state_folder() -> Path:
+    """Return the folder of what foldmill keeps of its work for this user; it need not exist.
 
-    ``$XDG_STATE_HOME/foldmill/ledger.sqlite``, on Windows under ``%LOCALAPPDATA%``, by default
-    under ``~/.local/state``.
+    ``$XDG_STATE_HOME/foldmill``, on Windows under ``%LOCALAPPDATA%``, by default under
+    ``~/.local/state``.
     """
     home = os.environ.get("LOCALAPPDATA" if sys.platform == "win32" else "XDG_STATE_HOME")
-    return (Path(home) if home else Path.home() / ".local/state") / "foldmill/ledger.sqlite"
+    return (Path(home) if home else Path.home() / ".local/state") / "foldmill"
+
+
+def ledger_file() -> Path:
+    """Return the file of this user's ledger; its folder need not exist."""
+    return state_folder() / "ledger.sqlite"
 
 
 def _writing() -> Update:
@@ -66,7 +71,8 @@ def _writing() -> Update:
 _WRITE = _writing()
 
 
-def _utc() -> datetime:
+def utc() -> datetime:
+    """Return the time on the wall."""
     return datetime.now(UTC)
 
 
@@ -77,7 +83,7 @@ class Ledger:
     Raises LedgerRefused where it cannot be opened.
     """
 
-    def __init__(self, place: Path | str, now: Callable[[], datetime] = _utc) -> None:
+    def __init__(self, place: Path | str, now: Callable[[], datetime] = utc) -> None:
         self._now = now
         try:
             if isinstance(place, Path):
@@ -223,7 +229,7 @@ def _free_name(at: Connection, job: str) -> str:
     count = len(at.execute(select(SHEETS.c.number).where(SHEETS.c.job == job)).all())
     while True:
         digest = hashlib.sha256(f"{job} {count}".encode()).digest()
-        name = "".join(_LETTERS[byte % len(_LETTERS)] for byte in digest[:4])
+        name = "".join(LETTERS[byte % len(LETTERS)] for byte in digest[:4])
         if at.execute(select(SHEETS.c.id).where(SHEETS.c.id == name)).first() is None:
             return name
         count += 1

@@ -1,0 +1,164 @@
+"""What may be done with jobs: one set of verbs for the terminal, the HTTP API and scripts.
+
+It reads and writes the store; whoever works on the jobs hears of it there. ``client`` offers the
+same verbs over HTTP.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.jobs.errors import JobRefused
+from foldmill_fabricate.jobs.judging import judge
+from foldmill_fabricate.jobs.ordering import options
+from foldmill_fabricate.jobs.places import Places
+from foldmill_fabricate.jobs.plans import Plans
+from foldmill_fabricate.jobs.plotters import Plotter, find
+from foldmill_fabricate.jobs.rows import About
+from foldmill_fabricate.jobs.states import JobState
+from foldmill_fabricate.jobs.store import JobStore
+from foldmill_fabricate.jobs.values import Happening, JobRecord, Question, Reply, Submission
+from foldmill_fabricate.plotter.ledger import SheetRecord
+
+
+class Jobs(Protocol):
+    """The verbs, wherever the jobs are."""
+
+    def keep(self, folder: Path) -> str:
+        """Keep a job folder; return the id of its plan."""
+        ...
+
+    def submit(self, asked: Submission, who: str = "") -> JobRecord:
+        """Put a job in the queue of its plotter."""
+        ...
+
+    def jobs(self, states: Sequence[JobState] = (), plotter: str = "") -> list[JobRecord]:
+        """Return jobs, the newest first."""
+        ...
+
+    def job(self, name: str) -> JobRecord:
+        """Return a job."""
+        ...
+
+    def questions(self, job: str = "") -> list[Question]:
+        """Return what people are asked now."""
+        ...
+
+    def answer(self, question: str, reply: Reply, who: str = "") -> None:
+        """Answer a question, once."""
+        ...
+
+    def pause(self, name: str, who: str = "") -> JobRecord:
+        """Have nothing more cut for now."""
+        ...
+
+    def resume(self, name: str, who: str = "") -> JobRecord:
+        """Take back a pause."""
+        ...
+
+    def cancel(self, name: str, who: str = "") -> JobRecord:
+        """End a job."""
+        ...
+
+    def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
+        """Change a job's place in the queue."""
+        ...
+
+    def history(self, name: str) -> list[Happening]:
+        """Return who did what, and when, to a job and its sheets."""
+        ...
+
+
+class Desk:
+    """The verbs on the store itself. Raises FoldmillErrors with the sentence."""
+
+    def __init__(
+        self, places: Places, plotters: Mapping[str, Plotter], store: JobStore | None = None
+    ) -> None:
+        self.places, self.plotters = places, plotters
+        self.store = store or JobStore(places.ledger)
+        self.plans = Plans(places.plans)
+
+    def keep(self, folder: Path) -> str:
+        """Keep a job folder; return the id of its plan."""
+        return self.plans.keep(folder)
+
+    def submit(self, asked: Submission, who: str = "") -> JobRecord:
+        """Put a job in the queue of its plotter.
+
+        Raises NoSuchJob for a plan or plotter that there is not, JobRefused where the plotter is
+        another machine than the plan is for.
+        """
+        plotter = find(self.plotters, asked.plotter)
+        if bool(asked.plan) == (asked.design is not None):
+            raise JobRefused("Submit a plan, or a design to be planned: one of both.")
+        if asked.design is not None:
+            options(asked.design.options)
+            name = f"{asked.design.family} {asked.design.preset}".strip()
+            about = About(name, asked.design.material, asked.design.machine)
+        else:
+            about = self.plans.about(asked.plan)
+            if not self.plans.plan(asked.plan).programs:
+                raise CannotSend("This plan holds drawings only; plan it again without --to.")
+        if about.machine != plotter.machine:
+            raise JobRefused(
+                f"This job is planned for {about.machine}, and {plotter.name} is a "
+                f"{plotter.machine}: plan it for that machine, or choose another plotter."
+            )
+        return self.store.submit(asked, about, who)
+
+    def jobs(self, states: Sequence[JobState] = (), plotter: str = "") -> list[JobRecord]:
+        """Return jobs, the newest first."""
+        return self.store.jobs(states, plotter)
+
+    def job(self, name: str) -> JobRecord:
+        """Return a job."""
+        return self.store.job(name)
+
+    def questions(self, job: str = "") -> list[Question]:
+        """Return what people are asked now."""
+        return self.store.questions(self.store.job(job).id if job else "")
+
+    def answer(self, question: str, reply: Reply, who: str = "") -> None:
+        """Answer a question, once; what cannot be is refused with its sentence."""
+        asked = self.store.question(question)
+        plan = self.plans.plan(self.store.job(asked.job).plan)
+        judge(asked, reply, plan, self.store.ledger)
+        self.store.answer(question, reply, who)
+
+    def pause(self, name: str, who: str = "") -> JobRecord:
+        """Have nothing more cut for now; at a machine that is where its tool is up next."""
+        return self.store.pause(name, who)
+
+    def resume(self, name: str, who: str = "") -> JobRecord:
+        """Take back a pause."""
+        return self.store.resume(name, who)
+
+    def cancel(self, name: str, who: str = "") -> JobRecord:
+        """End a job; at a machine that is at once. What is cut stays in the ledger."""
+        return self.store.cancel(name, who)
+
+    def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
+        """Change a job's place in the queue."""
+        return self.store.prioritise(name, priority, who)
+
+    def history(self, name: str) -> list[Happening]:
+        """Return who did what, and when, to a job and its sheets."""
+        job = self.store.job(name)
+        lines = [
+            Happening(when=one.when, who=one.who, what=one.what)
+            for one in self.store.events(job=job.id, limit=100_000)
+        ]
+        for sheet in job.sheets:
+            lines += [
+                Happening(when=when, who=who, what=what, sheet=sheet)
+                for when, who, what in self.store.ledger.history(sheet)
+            ]
+        return sorted(lines, key=lambda line: line.when)
+
+    def sheet(self, name: str) -> SheetRecord:
+        """Return what the ledger knows of a sheet."""
+        return self.store.ledger.sheet(name)

@@ -1,0 +1,143 @@
+"""The one process on a computer that works on jobs: it holds the host's lock and the engine."""
+
+from __future__ import annotations
+
+import logging
+import socket
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from threading import Event
+
+from filelock import FileLock, Timeout
+
+from foldmill.errors import FoldmillError
+from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
+from foldmill_fabricate.jobs.errors import JobRefused, Leave
+from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
+from foldmill_fabricate.jobs.places import Places
+from foldmill_fabricate.jobs.plans import Plans
+from foldmill_fabricate.jobs.plotters import Plotter
+from foldmill_fabricate.jobs.states import JobState
+from foldmill_fabricate.jobs.store import JobStore
+from foldmill_fabricate.jobs.values import Order
+from foldmill_fabricate.jobs.work import Shop, Tell, work
+from foldmill_fabricate.plotter.errors import Fenced
+
+_LOG = logging.getLogger(__name__)
+
+
+class Host:
+    """Works on the jobs of these plotters until it is stopped.
+
+    name : of this computer, fixed; it must be given where the database is not a file, for other
+    computers may use the same. Raises JobRefused where another process does so already.
+    """
+
+    def __init__(
+        self,
+        places: Places,
+        plotters: Mapping[str, Plotter],
+        name: str = "",
+        tell: Tell | None = None,
+    ) -> None:
+        if places.database and not name:
+            raise JobRefused(
+                "With a database that others reach this computer needs a name of its own, always "
+                "the same: give --host-name."
+            )
+        self.places, self.plotters = places, plotters
+        self._lock = _locked(places)
+        try:
+            self.store = JobStore(places.ledger)
+            self.plans = Plans(places.plans)
+            self._leaving = Event()
+            self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
+            self._tokens: dict[str, int] = {}
+            self._engine = Engine(
+                places.engine, name or socket.gethostname(), self._queues(), self._due
+            )
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def start(self) -> None:
+        """Take up what a crash has left, and begin to work."""
+        self._engine.start()
+
+    def wake(self) -> None:
+        """Look for jobs now."""
+        self._engine.wake()
+
+    def stop(self) -> None:
+        """Stop the machines, leave what is under way to be taken up again, and let go of all."""
+        self._leaving.set()
+        self._engine.stop()
+        self.store.close()
+        self._lock.release()
+
+    def _queues(self) -> dict[str, tuple[Take, Make]]:
+        made: dict[str, tuple[Take, Make]] = {
+            f"plotter-{name}": (self._take, self._make) for name in self.plotters
+        }
+        return {PLANNING: (self._take_order, self._plan), **made}
+
+    def _due(self) -> dict[str, int]:
+        due = {f"plotter-{name}": count for name, count in self.store.due().items()}
+        return due | {PLANNING: len(self.store.jobs([JobState.PLANNING]))}
+
+    def _take(self, queue: str) -> str:
+        taken = self.store.take(queue.removeprefix("plotter-"))
+        if taken is None:
+            return ""
+        job, self._tokens[job.id] = taken
+        return job.id
+
+    def _make(self, queue: str, name: str) -> None:
+        """Work on a job that was taken; after a crash it is taken anew, by a new token."""
+        token = self._tokens.pop(name, None)
+        if token is None:
+            taken = self.store.take(queue.removeprefix("plotter-"))
+            if taken is None or taken[0].id != name:
+                return  # it has ended meanwhile; what is next has a turn of its own
+            token = taken[1]
+        plotter = self.plotters[queue.removeprefix("plotter-")]
+        try:
+            work(self._shop, self.store.job(name), token, plotter)
+        except (Leave, Fenced) as error:
+            _LOG.warning("job %s: %s", name, error)
+
+    def _take_order(self, queue: str) -> str:  # noqa: ARG002
+        waiting = self.store.jobs([JobState.PLANNING])
+        return waiting[-1].id if waiting else ""
+
+    def _plan(self, queue: str, name: str) -> None:  # noqa: ARG002
+        """Plan an ordered design; killed and begun again, it does the same."""
+        job = self.store.job(name)
+        if job.state is not JobState.PLANNING:
+            return
+        order = Order.model_validate_json(self.store.order(name))
+        with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
+            folder = Path(place) / "job"
+            try:
+                carry_out_elsewhere(order, folder, self._leaving)
+                plan = self.plans.keep(folder)
+            except Leave:
+                return
+            except FoldmillError as error:
+                self.store.refused(name, str(error))
+                return
+        self.store.planned(name, plan, self.plans.about(plan))
+
+
+def _locked(places: Places) -> FileLock:
+    places.root.mkdir(parents=True, exist_ok=True)
+    lock = FileLock(places.lock, timeout=0)
+    try:
+        lock.acquire()
+    except Timeout:
+        raise JobRefused(
+            f"Another foldmill works on the jobs in {places.root} already: `foldmill serve` or "
+            "`foldmill job work`. Stop that one first, or leave the work to it."
+        ) from None
+    return lock

@@ -1,0 +1,124 @@
+"""Make an ordered design into a job folder, in a process of its own.
+
+Planning takes seconds to minutes of a processor; machines at work must not wait for it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from threading import Event
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from foldmill.errors import FoldmillError, InvalidInput
+from foldmill.refusals import explain
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.jobs.errors import Leave
+from foldmill_fabricate.jobs.values import Order
+
+Size = tuple[float, float]
+_LOOK = 0.2
+"""s between two looks at a process."""
+
+
+class Options(BaseModel):
+    """How a sheet is planned: the options of `foldmill plan`, by name."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    blank: Size | None = None
+    """width and height, mm; by default the material's stock"""
+    carrier: Size | None = None
+    """width and height, mm; by default the machine's mat"""
+    flip: Literal["left-right", "end-over-end"] = "left-right"
+    unassigned: Literal["front", "reverse", "skip"] | None = None
+    score: str | None = None
+    outline: str | None = None
+    relief: Literal["none", "needed", "all"] = "none"
+    copies: int = Field(default=1, ge=1, le=10_000)
+    grid: tuple[int, int] | None = None
+    registration: Literal["holes", "l-marks", "edge", "pins", "none"] = "holes"
+    temperatures: Size | None = None
+    """of the sheet at both passes, °C"""
+
+    def for_make(self) -> dict[str, Any]:
+        """Return them by the names of ``plan.make``."""
+        given = dict(self)
+        given["cut"] = given.pop("outline")
+        given["register"] = given.pop("registration")
+        return given
+
+
+def options(given: dict[str, Any]) -> Options:
+    """Return options; raises InvalidInput with a sentence."""
+    try:
+        return Options.model_validate(given)
+    except ValidationError as error:
+        raise InvalidInput(f"Options of planning: {explain(error)}") from None
+
+
+def carry_out(order: Order, folder: Path) -> None:
+    """Design and plan into a folder, in this process; raises FoldmillError."""
+    from foldmill import installed
+    from foldmill_fabricate import folder as folders
+    from foldmill_fabricate import shelf
+    from foldmill_fabricate.plan import make
+    from foldmill_fabricate.writers import writer
+
+    chosen = options(order.options)
+    family = installed().design(order.family)
+    values = family.preset(order.preset).model_dump() if order.preset else {}
+    fold = family.run(family.validate({**values, **order.params}))
+    material, machine = shelf.material(order.material), shelf.machine(order.machine)
+    if not writer(machine):
+        raise CannotPlan(f"Nothing installed writes programs in {machine.language}.")
+    plan = make(fold, material, machine, **chosen.for_make())
+    folders.write(fold, plan, folder, ["svg", "dxf", machine.language])
+
+
+def carry_out_elsewhere(order: Order, folder: Path, leaving: Event) -> None:
+    """Have another process design and plan; raises CannotPlan with its sentence, or Leave."""
+    command = [sys.executable, "-m", "foldmill_fabricate.jobs.ordering", str(folder)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL) as child:
+        try:
+            assert child.stdin is not None
+            child.stdin.write(order.model_dump_json().encode())
+            child.stdin.close()
+            while child.poll() is None:
+                if leaving.wait(_LOOK):
+                    raise Leave("The service ends.")
+        except BaseException:
+            child.kill()
+            raise
+        assert child.stdout is not None
+        _judge(child.stdout.read(), child.returncode)
+
+
+def _judge(told: bytes, code: int) -> None:
+    try:
+        refused = json.loads(told)["refused"]
+    except ValueError:
+        raise CannotPlan(f"Planning ended without a result (code {code}).") from None
+    if refused:
+        raise CannotPlan(refused)
+
+
+def main(folder: str) -> None:
+    """Carry out the order on standard input and say on standard output how that ended."""
+    if hasattr(os, "nice"):
+        os.nice(10)
+    refused = ""
+    try:
+        carry_out(Order.model_validate_json(sys.stdin.read()), Path(folder))
+    except FoldmillError as error:
+        refused = str(error)
+    sys.stdout.write(json.dumps({"refused": refused}))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

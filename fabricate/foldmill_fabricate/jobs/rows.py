@@ -1,0 +1,105 @@
+"""Rows of the tables of jobs as values, and values as rows."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Connection, Select, case, select
+
+from foldmill_fabricate.jobs.errors import NoSuchJob
+from foldmill_fabricate.jobs.states import ACTIVE, JobState
+from foldmill_fabricate.jobs.tables import JOB_SHEETS, JOBS
+from foldmill_fabricate.jobs.values import Event, JobRecord, Submission
+from foldmill_fabricate.plotter.ledger.ledger import LETTERS
+from foldmill_fabricate.plotter.ledger.writing import person as person
+
+WORKER = "foldmill"
+"""Who does what no person does."""
+_LENGTH = 6
+
+
+@dataclass(frozen=True)
+class About:
+    """What a plan, or an order, says of itself."""
+
+    title: str
+    material: str
+    machine: str
+
+
+def digest(asked: Submission) -> str:
+    """Return what tells one submission from another, its key left out."""
+    return hashlib.sha256(asked.model_dump_json(exclude={"key"}).encode()).hexdigest()
+
+
+def new_id(at: Connection) -> str:
+    """Return a short id that no job has."""
+    while True:
+        name = "".join(secrets.choice(LETTERS) for _ in range(_LENGTH))
+        if at.execute(select(JOBS.c.id).where(JOBS.c.id == name)).first() is None:
+            return name
+
+
+def job_values(asked: Submission, about: About, content: str) -> dict[str, Any]:
+    """Return what a job is stored with when it is new."""
+    return {
+        "key": asked.key or None,
+        "content": content,
+        "plotter": asked.plotter,
+        "plan": asked.plan,
+        "order": asked.design.model_dump_json() if asked.design else "",
+        "copies": asked.copies,
+        "priority": asked.priority,
+        "begun": False,
+        "remakes": asked.remakes,
+        **vars(about),
+    }
+
+
+def job_row(at: Connection, name: str, *, lock: bool = False) -> Any:
+    """Return a job's row; lock : nobody else changes it until the transaction ends."""
+    wanted = select(JOBS).where(JOBS.c.id == name.upper())
+    row = at.execute(wanted.with_for_update() if lock else wanted).first()
+    if row is None:
+        raise NoSuchJob(
+            f"There is no job {name[:20]!r}; `foldmill job list` shows those there are."
+        )
+    return row
+
+
+def sheets(at: Connection, name: str) -> tuple[str, ...]:
+    """Return the ids of the sheets that a job has begun, in order."""
+    wanted = select(JOB_SHEETS.c.sheet).where(JOB_SHEETS.c.job == name)
+    return tuple(at.execute(wanted.order_by(JOB_SHEETS.c.number)).scalars())
+
+
+def record(at: Connection, row: Any) -> JobRecord:
+    """Return a row as a value."""
+    names = set(JobRecord.model_fields) - {"state", "sheets"}
+    values = {name: getattr(row, name) for name in names}
+    return JobRecord(state=JobState(row.state), sheets=sheets(at, row.id), **values)
+
+
+def event(row: Any) -> Event:
+    """Return a row as a value."""
+    head = {name: getattr(row, name) for name in ("number", "when", "job", "who", "what")}
+    return Event(state=JobState(row.state), **head)
+
+
+def next_job(plotter: str) -> Select[Any]:
+    """Return the statement that finds the job that has a plotter, or else is next on it."""
+    has = JOBS.c.begun & JOBS.c.state.in_([state.value for state in ACTIVE])
+    waits = JOBS.c.state == JobState.SUBMITTED.value
+    first = case((has, 0), else_=1)
+    wanted = select(JOBS).where(JOBS.c.plotter == plotter, has | waits)
+    order = wanted.order_by(first, JOBS.c.priority.desc(), JOBS.c.number)
+    return order.limit(1).with_for_update()
+
+
+def cannot(row: Any, what: str) -> str:
+    """Say why a job cannot be changed."""
+    begun = " and begun" if row.begun and row.state != JobState.RUNNING.value else ""
+    return f"Job {row.id} is {row.state}{begun}; it cannot {what}."

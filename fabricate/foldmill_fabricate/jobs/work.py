@@ -1,0 +1,202 @@
+"""Work on one job until it ends: sheet after sheet, asking where only a person can say.
+
+Nothing that goes wrong ends a job: it asks, and goes on on a person's word. What is certain of a
+sheet stands in the ledger, so this may be killed anywhere and begun again.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass, field
+from threading import Event, Thread
+
+from foldmill.errors import FoldmillError
+from foldmill_fabricate.choosing import NEW, choose_sheet
+from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.jobs.errors import Cancelled, GivenUp, JobRefused, Leave
+from foldmill_fabricate.jobs.hands import LOOK, Hands
+from foldmill_fabricate.jobs.places import Places
+from foldmill_fabricate.jobs.plans import Plans
+from foldmill_fabricate.jobs.plotters import Plotter
+from foldmill_fabricate.jobs.proving import prove_elsewhere
+from foldmill_fabricate.jobs.states import JobState
+from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
+from foldmill_fabricate.jobs.values import JobRecord, Kind
+from foldmill_fabricate.passes import Face, ProgramFile
+from foldmill_fabricate.plotter.errors import Fenced
+from foldmill_fabricate.plotter.ledger import SheetRecord, State
+from foldmill_fabricate.plotter.sender import Progress
+from foldmill_fabricate.plotter.wish import Wish
+from foldmill_fabricate.sending import Job, open_job
+
+_LOG = logging.getLogger(__name__)
+_FACES = tuple(Face)
+
+
+class Tell:
+    """Hears how far programs are; a service counts and shows it."""
+
+    def sent(self, job: JobRecord, sheet: str, part: ProgramFile, progress: Progress) -> None:
+        """Hear of an instruction that has left."""
+
+    def ended(self, job: JobRecord, sheet: str, part: ProgramFile, seconds: float) -> None:
+        """Hear of a program that has ended, and what it took by the clock."""
+
+
+@dataclass(frozen=True)
+class Shop:
+    """What all work of a service has in common."""
+
+    store: JobStore
+    plans: Plans
+    places: Places
+    leaving: Event
+    """Set when the process is to end: machines are stopped, and what was under way is in doubt."""
+    tell: Tell = field(default_factory=Tell)
+
+
+def work(shop: Shop, job: JobRecord, token: int, plotter: Plotter) -> None:
+    """Work on a job, as the holder of its token, until it ends.
+
+    Raises Leave where the process is to end, Fenced where somebody else has the job.
+    """
+    try:
+        with watching(shop, job.id, token) as wish:
+            _Work(shop, job, token, plotter, wish).make()
+    except Cancelled:
+        shop.store.move(job.id, token, JobState.CANCELLED, "A person ended it.")
+    except GivenUp as error:
+        shop.store.move(job.id, token, JobState.FAILED, str(error))
+
+
+class watching:  # noqa: N801
+    """Hear, beside the work, what a person wants of a job, and whether the process ends."""
+
+    def __init__(self, shop: Shop, job: str, token: int) -> None:
+        self._shop, self._job, self._token = shop, job, token
+        self._wish, self._over = Wish(), Event()
+        self._thread = Thread(target=self._watch, name=f"wishes of {job}", daemon=True)
+
+    def __enter__(self) -> Wish:
+        self._thread.start()
+        return self._wish
+
+    def __exit__(self, *_: object) -> None:
+        self._over.set()
+        self._thread.join()
+
+    def _watch(self) -> None:
+        while not self._over.wait(LOOK):
+            if self._shop.leaving.is_set():
+                self._wish.stop()
+                return
+            try:
+                self._hear(self._shop.store.wish(self._job))
+            except (JobRefused, Fenced):
+                pass  # the work itself meets it, and says so
+            except Exception:  # a database that is away for a moment must not end the watch
+                _LOG.exception("wishes of job %s", self._job)
+
+    def _hear(self, wanted: str) -> None:
+        if wanted == CANCEL:
+            self._wish.stop()
+        elif wanted == PAUSE and not self._wish.paused:
+            self._wish.pause()
+            self._show(JobState.RUNNING, JobState.PAUSED)
+        elif not wanted and self._wish.paused:
+            self._wish.go_on()
+            self._show(JobState.PAUSED, JobState.RUNNING)
+
+    def _show(self, was: JobState, to: JobState) -> None:
+        if self._shop.store.job(self._job).state is was:
+            self._shop.store.move(self._job, self._token, to)
+
+
+class _Work:
+    """One job at its plotter."""
+
+    def __init__(
+        self, shop: Shop, job: JobRecord, token: int, plotter: Plotter, wish: Wish
+    ) -> None:
+        self.shop, self.job, self.token, self.plotter, self.wish = shop, job, token, plotter, wish
+        self.store, self.ledger = shop.store, shop.store.ledger
+        self.hands = Hands(shop.store, job.id, token, shop.leaving, plotter.port)
+        self.opened: Job | None = None
+
+    def make(self) -> None:
+        """Make all its sheets."""
+        made = 0
+        for sheet in self.job.sheets:
+            made += self._make_sheet(sheet)
+        while made < self.job.copies:
+            made += self._make_sheet("")
+        self.store.move(self.job.id, self.token, JobState.RUNNING)
+        self.store.move(self.job.id, self.token, JobState.DONE)
+
+    def _make_sheet(self, sheet: str) -> bool:
+        """Make a sheet; False where it was given up, and another is made in its place."""
+        while True:
+            self.hands.heed()
+            if sheet and not (record := self.ledger.sheet(sheet)).is_open:
+                return self._is_made(record)
+            try:
+                opened = self._open()
+                sheet = sheet or self._lay(opened)
+                self._send(opened, sheet)
+            except (Cancelled, GivenUp, Leave, Fenced):
+                raise
+            except FoldmillError as error:
+                self._trouble(str(error), sheet)
+            except Exception as error:  # a job asks rather than ends, whatever it is
+                _LOG.exception("job %s", self.job.id)
+                self._trouble(f"Something unforeseen went wrong: {error!r}.", sheet)
+
+    def _open(self) -> Job:
+        """Prove the plan, once: what was proved is held here, and is what is sent."""
+        if self.opened is None:
+            folder = self.shop.plans.folder(self.job.plan)
+            self.opened = open_job(folder, prover=prove_elsewhere)
+        return self.opened
+
+    def _lay(self, opened: Job) -> str:
+        """Begin a sheet, in the ledger first: where this ends in between, it is one never used."""
+        sheet = choose_sheet(self.ledger, opened, _FACES, NEW).id
+        self.store.begin_sheet(self.job.id, self.token, sheet)
+        return sheet
+
+    def _send(self, opened: Job, sheet: str) -> None:
+        """Send what is left of a sheet; it ends early where a person has to say how it goes on."""
+        tell = self.shop.tell
+        transcript = self.shop.places.new_transcript(self.job.id, sheet)
+        parts = send_job(
+            opened,
+            self.plotter.port,
+            self.hands,
+            _FACES,
+            lambda part, progress: tell.sent(self.job, sheet, part, progress),
+            self.ledger,
+            sheet,
+            transcript=transcript,
+            wish=self.wish,
+        )
+        for sent in parts:
+            tell.ended(self.job, sheet, sent.program, sent.delivery.seconds)
+
+    def _trouble(self, why: str, sheet: str) -> None:
+        """Ask a person to put right what is in the way; no: the job ends."""
+        self.hands.heed()  # a stop that was wanted is no trouble
+        text = f"{why}\nOnce that is put right, it is tried again; or end the job."
+        if not self._asked(Kind.TROUBLE, text, sheet):
+            raise Cancelled("Ended by a person.")
+
+    def _is_made(self, record: SheetRecord) -> bool:
+        """Tell whether a sheet that is closed was made; ask for another where it was given up."""
+        if all(one.state is not State.SPOILED for one in record.records):
+            return True
+        text = f"Sheet {record.id} was given up. Is another one made in its place?"
+        if record.id in self.job.sheets[:-1] or self._asked(Kind.ANOTHER, text, record.id):
+            return False
+        raise GivenUp(f"Sheet {record.id} was given up.")
+
+    def _asked(self, kind: Kind, text: str, sheet: str) -> bool:
+        return self.hands.ask(kind, text, sheet=sheet)[0].ok
