@@ -15,6 +15,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import ProgramFile, SetUp
 from foldmill_fabricate.plotter import resume
 from foldmill_fabricate.plotter.errors import LedgerRefused
+from foldmill_fabricate.plotter.handshakes.hp import DROPS
 from foldmill_fabricate.plotter.languages import made_ready, spoken
 from foldmill_fabricate.plotter.ledger import Record, Said, Word
 from foldmill_fabricate.plotter.program import PART
@@ -47,11 +48,24 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     where = _where(program, record, machine)
     found = stand(port, machine)
     if found is None:
-        return Place(None, where)
+        return Place(None, f"{where} {_half(machine)}".strip())
     start = resume.locate(program, last.acked, last.sent, found.at, is_down=found.is_down)
     if start is not None:
         return Place(start, where)
     return Place(None, f"{where} {_told(program, last.acked, last.sent, found, machine)}".strip())
+
+
+def _half(machine: Machine) -> str:
+    """Say what to do where half an instruction may lie in a machine that cannot drop it.
+
+    The next bytes would end it: a number cut short is a line to somewhere else.
+    """
+    if machine.language != "hpgl" or machine.serial.handshake in DROPS:
+        return ""
+    return (
+        "Half an instruction may lie in the machine, which cannot be told to drop it: lift the "
+        "tool and switch the machine off and on before you answer."
+    )
 
 
 def _where(program: Program, record: Record, machine: Machine) -> str:

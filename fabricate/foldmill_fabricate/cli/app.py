@@ -16,6 +16,7 @@ from foldmill_fabricate.cli import (
     catalogue,
     designing,
     exploring,
+    jobs,
     leading,
     making,
     moving,
@@ -44,6 +45,7 @@ testing.add_to(app)
 running.add_to(app)
 leading.add_to(app)
 sheets.add_to(app)
+jobs.add_to(app)
 
 
 def main() -> None:

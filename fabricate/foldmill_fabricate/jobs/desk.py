@@ -35,6 +35,10 @@ class Jobs(Protocol):
         """Put a job in the queue of its plotter."""
         ...
 
+    def machine_of(self, plotter: str) -> str:
+        """Return the slug of a plotter's machine."""
+        ...
+
     def jobs(self, states: Sequence[JobState] = (), plotter: str = "") -> list[JobRecord]:
         """Return jobs, the newest first."""
         ...
@@ -69,6 +73,10 @@ class Jobs(Protocol):
 
     def history(self, name: str) -> list[Happening]:
         """Return who did what, and when, to a job and its sheets."""
+        ...
+
+    def transcripts(self, name: str) -> list[str]:
+        """Return the names of what went over the wire for a job, the oldest first."""
         ...
 
 
@@ -109,6 +117,10 @@ class Desk:
                 f"{plotter.machine}: plan it for that machine, or choose another plotter."
             )
         return self.store.submit(asked, about, who)
+
+    def machine_of(self, plotter: str) -> str:
+        """Return the slug of a plotter's machine; raises NoSuchJob."""
+        return find(self.plotters, plotter).machine
 
     def jobs(self, states: Sequence[JobState] = (), plotter: str = "") -> list[JobRecord]:
         """Return jobs, the newest first."""
@@ -158,6 +170,10 @@ class Desk:
                 for when, who, what in self.store.ledger.history(sheet)
             ]
         return sorted(lines, key=lambda line: line.when)
+
+    def transcripts(self, name: str) -> list[str]:
+        """Return the files of what went over the wire for a job, the oldest first."""
+        return [str(path) for path in self.places.transcripts(self.store.job(name).id)]
 
     def sheet(self, name: str) -> SheetRecord:
         """Return what the ledger knows of a sheet."""

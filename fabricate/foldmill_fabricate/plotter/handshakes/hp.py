@@ -17,6 +17,8 @@ _FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
 MET = 10
 """I/O error of a question that met another answer: it was dropped, and nothing else."""
+DROPS = frozenset({"esc-b", "enq-ack"})
+"""Handshakes of machines that drop what they hold, half an instruction too, at ESC.K."""
 _PAUSED = 16 | 32
 """Bits of the extended status: paused by a key, or a lever up."""
 _NOISE = bytes((0x11, 0x13, 0x0A))
@@ -57,7 +59,7 @@ class HpSession(Session):
     @property
     def discards(self) -> bool:
         """Whether the machine drops what it holds at ESC.K."""
-        return self.machine.serial.handshake in ("esc-b", "enq-ack")
+        return self.machine.serial.handshake in DROPS
 
     def _meet(self) -> None:
         asked = self.clock.now()
