@@ -79,4 +79,4 @@ def main(words: list[str], environment: dict[str, str], log: Path) -> None:
             die_at(word)
     with log.open("a") as to, contextlib.redirect_stderr(to):
         plotters = [word for word in words if "=" in word]
-        work_here(plotters, "here", lambda line: print(line, file=to, flush=True))  # noqa: T201
+        work_here(plotters, "here", lambda line: print(line, file=to, flush=True))
