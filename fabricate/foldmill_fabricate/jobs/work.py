@@ -100,7 +100,7 @@ class watching:  # noqa: N801
     def _hear(self, wanted: str) -> None:
         if wanted == CANCEL:
             self._wish.stop()
-        elif wanted == PAUSE and not self._wish.paused:
+        elif wanted == PAUSE:
             self._wish.pause()
             self._show(JobState.RUNNING, JobState.PAUSED)
         elif not wanted and self._wish.paused:

@@ -116,6 +116,7 @@ class Workshop:
     careless: bool = False
     forgetful: bool = False
     """Whether nobody switches a machine off and on that holds half an instruction."""
+    database: str = ""
     job: str = ""
     truth: Counter[Line] = field(default_factory=Counter)
     """What is to be on the sheet by the plan and by what the person chose."""
@@ -126,7 +127,7 @@ class Workshop:
         self.simulator = Simulator(machine(blind=self.blind), clock=RealClock(), speed_up=SPEED_UP)
         self.folder = self.root / "job"
         folder.write(knife_job.fold(), plan(blind=self.blind), self.folder, ["hpgl"])
-        self.places = Places(self.root / "state/foldmill", "")
+        self.places = Places(self.root / "state/foldmill", self.database)
         self.port = ""
         self.process: BaseProcess | None = None
         self.left: int | None = None

@@ -1,0 +1,71 @@
+"""Jobs and ledger in PostgreSQL, on a real server: the same rules, crashes and sheets."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import count
+from pathlib import Path
+
+import pytest
+from fabricate.jobs import postgres
+from fabricate.jobs.workshop import workshop
+
+from foldmill_fabricate.jobs import Desk, JobState, Places, Submission
+from foldmill_fabricate.jobs.errors import Clash, JobRefused
+from foldmill_fabricate.jobs.host import Host
+from foldmill_fabricate.jobs.plotters import Plotter
+
+PROGRAMS = postgres.binaries()
+pytestmark = pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools")
+MACHINE = "generic-hpgl-600"
+_NUMBERS = count()
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[str]:
+    assert PROGRAMS is not None
+    with postgres.server(PROGRAMS) as url:
+        yield url
+
+
+@pytest.fixture
+def database(server: str) -> str:
+    return postgres.new_database(server, f"jobs{next(_NUMBERS)}")
+
+
+def test_a_sheet_is_cut_as_planned_though_the_service_is_killed(
+    tmp_path: Path, database: str
+) -> None:
+    with workshop(tmp_path, database=database) as shop:
+        assert shop.run(bytes_=600)
+        shop.check_ledger()
+        shop.run()
+        assert shop.at.job(shop.job).state is JobState.DONE, shop.log()
+        assert shop.difference() == (Counter(), Counter())
+
+
+def test_the_queue_keeps_its_order_and_its_keys(
+    tmp_path: Path, database: str, job_folder: Path
+) -> None:
+    plotter = Plotter(name="bench", port=f"sim://{MACHINE}", machine=MACHINE)
+    desk = Desk(Places(tmp_path, database), {"bench": plotter})
+    asked = Submission(plan=desk.keep(job_folder), plotter="bench", key="k")
+    with ThreadPoolExecutor(4) as pool:
+        names = set(pool.map(lambda _: desk.submit(asked).id, range(12)))
+    assert len(names) == 1
+    with pytest.raises(Clash):
+        desk.submit(asked.model_copy(update={"copies": 2}))
+    urgent = desk.submit(asked.model_copy(update={"key": "", "priority": 3})).id
+    with ThreadPoolExecutor(4) as pool:
+        taken = [one for one in pool.map(lambda _: desk.store.take("bench"), range(4)) if one]
+    assert {job.id for job, _ in taken} == {urgent}
+    tokens = [token for _, token in taken]
+    assert len(set(tokens)) == len(tokens), "no two hands hold one token"
+    desk.store.close()
+
+
+def test_a_computer_without_a_name_is_refused(tmp_path: Path, database: str) -> None:
+    with pytest.raises(JobRefused, match="--host-name"):
+        Host(Places(tmp_path, database), {})
