@@ -121,6 +121,8 @@ class Workshop:
     truth: Counter[Line] = field(default_factory=Counter)
     """What is to be on the sheet by the plan and by what the person chose."""
     killed: int = 0
+    troubles: list[str] = field(default_factory=list)
+    """What the person was told that is in the way."""
 
     def __post_init__(self) -> None:
         self.chance = random.Random(self.seed)
@@ -250,6 +252,9 @@ class Workshop:
             self._lay(question)
         elif question.kind is Kind.TRY:
             reply = Reply(ok=False)
+        elif question.kind is Kind.TROUBLE:
+            self.troubles.append(question.text)
+            time.sleep(1.0)
         elif question.kind in {Kind.DECIDE, Kind.FINISHED}:
             self.rest()
             record = self.at.store.ledger.record(question.sheet, question.program or 0)
