@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import socket
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -13,14 +15,23 @@ from typing import Any
 import httpx
 import uvicorn
 
+from foldmill_fabricate.jobs import Places
+from foldmill_fabricate.jobs.plotters import Plotter
 from foldmill_fabricate.service.app import create
 from foldmill_fabricate.service.security import Policy
+from foldmill_fabricate.service.workshop import Workshop
 
 
 @contextmanager
 def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client]:
-    """Run the application on a free port of this computer and give a client of it."""
-    app = create(folder, policy)
+    """Run the application on a free port of this computer and give a client of it.
+
+    Jobs are kept there and nobody works on them: a process has one engine, and tests several
+    services.
+    """
+    bench = Plotter(name="bench", port="sim://generic-hpgl-600", machine="generic-hpgl-600")
+    workshop = Workshop(Places(folder, ""), {"bench": bench}, works=False)
+    app = create(workshop, policy)
     with socket.create_server(("127.0.0.1", 0)) as listening:
         port = listening.getsockname()[1]
         server = uvicorn.Server(uvicorn.Config(app, log_config=None, access_log=False))
@@ -32,6 +43,29 @@ def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client
             yield client
         server.should_exit = True
         thread.join()
+
+
+@contextmanager
+def serving(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Start the command on a free port and give its process and its address."""
+    command = [sys.executable, "-m", "foldmill_fabricate", "serve", "--port", "0"]
+    folder.mkdir(exist_ok=True)
+    with (
+        (folder / "log").open("a") as log,
+        subprocess.Popen(
+            [*command, "--state", str(folder), *words],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=log,
+        ) as process,
+    ):
+        try:
+            assert process.stdout is not None
+            line = process.stdout.readline()
+            assert line.startswith("foldmill serves on http://"), (folder / "log").read_text()
+            yield process, line.split()[-1]
+        finally:
+            process.kill()
 
 
 def square(side: float = 100.0, assignment: str = "M") -> dict[str, Any]:

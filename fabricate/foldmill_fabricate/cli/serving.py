@@ -19,10 +19,10 @@ class ScopeChoice(StrEnum):
 
 def add_to(app: typer.Typer) -> None:
     """Add this command to the application."""
-    app.command()(serve)
+    app.command(name="serve")(serve_command)
 
 
-def serve(
+def serve_command(
     host: Annotated[str, typer.Option(help="Address to serve on; others demand tokens.")] = (
         "127.0.0.1"
     ),
@@ -33,6 +33,13 @@ def serve(
     state: Annotated[
         Path | None, typer.Option(help="Folder for what it keeps; default: beside the ledger.")
     ] = None,
+    plotter: Annotated[
+        list[str] | None,
+        typer.Option(help="A plotter beside those of plotters.toml: NAME=PORT@MACHINE."),
+    ] = None,
+    host_name: Annotated[
+        str, typer.Option(help="Of this computer, always the same; with a database of many.")
+    ] = "",
     demand_tokens: Annotated[
         bool, typer.Option("--demand-tokens", help="Demand tokens even on this computer.")
     ] = False,
@@ -50,11 +57,11 @@ def serve(
     ] = False,
 ) -> None:
     """Serve the HTTP API and run the jobs of this computer's plotters, until Ctrl-C or SIGTERM."""
-    from foldmill_fabricate.service.reach import state_folder
+    from foldmill_fabricate.jobs import Places
     from foldmill_fabricate.service.tokens import Scope, Tokens
 
-    folder = (state or state_folder()).absolute()
-    tokens = Tokens(folder)
+    places = Places() if state is None else Places(state.absolute())
+    tokens = Tokens(places.root)
     if new_token is not None:
         typer.echo(tokens.new(new_token, Scope(scope.value)))
         typer.echo("Keep it: it is not told again.", err=True)
@@ -64,13 +71,12 @@ def serve(
         for token in tokens.every:
             typer.echo(f"{token.name}  {token.scope.value}")
     if new_token is None and revoke_token is None and not list_tokens:
-        _serve(folder, host, port, tuple(name or ()), demand_tokens)
+        from foldmill_fabricate.jobs import plotters
+        from foldmill_fabricate.service import logs
+        from foldmill_fabricate.service.server import policy, serve
+        from foldmill_fabricate.service.workshop import Workshop
 
-
-def _serve(folder: Path, host: str, port: int, names: tuple[str, ...], demand: bool) -> None:
-    from foldmill_fabricate.service import logs
-    from foldmill_fabricate.service.server import policy, serve
-
-    who = policy(folder, host, names, demand)
-    logs.configure()
-    serve(folder, who, port, lambda url: typer.echo(f"foldmill serves on {url}"))
+        who = policy(places.root, host, tuple(name or ()), demand_tokens)
+        workshop = Workshop(places, plotters.read(more=plotter or ()), host_name)
+        logs.configure()
+        serve(workshop, who, port, lambda url: typer.echo(f"foldmill serves on {url}"))

@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
+from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.service.models import DesignRequest, Pattern, Report, Verification
 from foldmill_fabricate.service.sandbox import Limits, Sandbox
 from foldmill_fabricate.service.storage import ABOUT, JOB, Storage, read, write
@@ -62,13 +63,14 @@ class Desk:
     async def check(self, digest: str) -> Report:
         """Check a pattern; what was found is kept."""
         place = self.storage.pattern(digest)
-        found = await self._once(place, CHECK, "check", PATTERN, "The check")
+        source = place / PATTERN
+        found = await self._once(place / CHECK, "check", source, PATTERN, "The check")
         return Report.model_validate(found)
 
-    async def verify(self, digest: str) -> Verification:
-        """Verify the programs of a plan that is done; what was found is kept."""
+    async def verify(self, digest: str, job: Path) -> Verification:
+        """Verify the job folder of a plan; what was found is kept."""
         place = self.storage.plan(digest)
-        found = await self._once(place, VERIFIED, "verify", JOB, "The verification")
+        found = await self._once(place / VERIFIED, "verify", job, JOB, "The verification")
         return Verification.model_validate(found)
 
     async def drawing(self, digest: str, name: str) -> Path:
@@ -80,6 +82,18 @@ class Desk:
                 await self.call("draw", {"name": name}, folder, DESIGNING, "The drawing")
                 (folder / name).replace(place / name)
         return place / name
+
+    async def as_cut(self, job: Path, sheet: SheetRecord, face: str) -> bytes:
+        """Return a drawing, SVG, of how a face of a sheet is cut by now; job : its job folder."""
+        strokes = {
+            record.program.name: {"certain": record.certain, "doubtful": record.doubtful}
+            for record in sheet.records
+        }
+        title = f"sheet {sheet.id}, {face}"
+        arguments = {"job": str(job), "face": face, "strokes": strokes, "title": title}
+        async with self.folder() as folder:
+            await self.call("as_cut", arguments, folder, DESIGNING, "The drawing")
+            return (folder / "as-cut.svg").read_bytes()
 
     async def call(
         self, name: str, arguments: Mapping[str, Any], folder: Path, limits: Limits, what: str
@@ -98,11 +112,11 @@ class Desk:
         self.storage.keep_pattern(folder, about)
         return Pattern.model_validate(about)
 
-    async def _once(self, place: Path, kept: str, name: str, source: str, what: str) -> Any:
+    async def _once(self, kept: Path, name: str, source: Path, within: str, what: str) -> Any:
         """Return what was found before, or find it with a copy of what it is about."""
-        if not (place / kept).is_file():
+        if not kept.is_file():
             async with self.folder() as folder:
-                copy = shutil.copytree if (place / source).is_dir() else shutil.copy
-                copy(place / source, folder / source)
-                write(place / kept, await self.call(name, {}, folder, PLANNING, what))
-        return read(place / kept)
+                copy = shutil.copytree if source.is_dir() else shutil.copy
+                await asyncio.to_thread(copy, source, folder / within)
+                write(kept, await self.call(name, {}, folder, PLANNING, what))
+        return read(kept)

@@ -189,14 +189,14 @@ class PlanOptions(Wire):
     """Where creases without mountain or valley are scored."""
     score: Process | None = None
     """How creases are made; by default the first the machine can do."""
-    cut: Process | None = None
+    outline: Process | None = None
     """How the outline is made; by default the first the machine can do."""
     relief: Literal["none", "needed", "all"] = "none"
     """Which vertices get a hole in which grooves end."""
     copies: _Count = 1
     grid: tuple[_Count, _Count] | None = None
     """Columns and rows of copies, instead of ``copies``."""
-    register_by: Literal["holes", "l-marks", "edge", "pins", "none"] = "holes"
+    registration: Literal["holes", "l-marks", "edge", "pins", "none"] = "holes"
     """What keeps the faces in register."""
     temperatures: tuple[_Celsius, _Celsius] | None = None
     """°C of the sheet at the front pass and at the reverse pass."""
@@ -204,7 +204,8 @@ class PlanOptions(Wire):
     def as_made(self) -> dict[str, Any]:
         """Return the options as the planner names them."""
         given = self.model_dump()
-        return {"register": given.pop("register_by"), **given}
+        renamed = {"register": given.pop("registration"), "cut": given.pop("outline")}
+        return {**given, **renamed}
 
 
 class PlanRequest(Wire):
@@ -266,8 +267,69 @@ class PlanStatus(Wire):
     title: str = ""
     pattern: str = ""
     """Id of the pattern it is made from."""
+    plan: str = ""
+    """What a job is submitted with: the SHA-256 of what the plan says, once it is done."""
     material: str = ""
     machine: str = ""
     figures: PlanFigures | None = None
     findings: tuple[Finding, ...] = ()
     files: tuple[FileRow, ...] = ()
+
+
+class ProgramRow(Wire):
+    """A program of a sheet, and how far it is."""
+
+    number: int
+    """0, 1, 2 … in order of work"""
+    name: str
+    face: str
+    state: str
+    strokes: int
+    certain: int
+    """How many strokes are cut, by the machine's answers or a person's word."""
+    doubtful: tuple[int, ...]
+    """Numbers of strokes that may be cut, whole or in part: 1, 2, 3 …"""
+    note: str
+    """Why it ended as it did."""
+
+
+class SheetPage(Wire):
+    """A sheet of a job."""
+
+    id: str
+    """As it is written on the sheet."""
+    begun: str
+    """UTC, ISO 8601"""
+    programs: tuple[ProgramRow, ...]
+
+
+class PlotterStatus(Wire):
+    """A plotter, and what it does now."""
+
+    name: str
+    port: str
+    machine: str
+    """slug of its profile"""
+    at_work: bool
+    """Whether anybody works on its jobs."""
+    job: str
+    """Id of the job that has it; empty for none."""
+    state: str
+    """Of that job; "free" where none has it."""
+    note: str
+    """Why the job stands so."""
+    waiting: int
+    """How many jobs wait for it."""
+    sheet: SheetPage | None = None
+    """The sheet that is worked on."""
+
+
+class Priority(Wire):
+    """A place in the queue."""
+
+    priority: int = Field(ge=-1000, le=1000)
+    """Jobs of higher priority are made first."""
+
+
+class Nothing(Wire):
+    """An empty body: what is wanted stands in the path."""

@@ -15,6 +15,7 @@ from foldmill import FoldmillError, installed
 from foldmill.errors import InvalidInput, UnknownName
 from foldmill_fabricate import profiles, shelf
 from foldmill_fabricate.hooks import FORMATS
+from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.service.desk import PATTERN, PLANNING, Desk
@@ -63,10 +64,10 @@ class _Order:
 
 
 class Plans:
-    """The plans of one service."""
+    """The plans of one service; what is done is kept where jobs find it."""
 
-    def __init__(self, desk: Desk) -> None:
-        self._desk, self._storage = desk, desk.storage
+    def __init__(self, desk: Desk, kept: Kept) -> None:
+        self._desk, self._storage, self._kept = desk, desk.storage, kept
         self._tasks: dict[str, asyncio.Task[None]] = {}
 
     async def begin(self, request: PlanRequest) -> PlanStatus:
@@ -108,7 +109,7 @@ class Plans:
         status = self.status(digest)
         if status.state is not PlanState.DONE:
             raise NoSuch(f"The plan {digest} has no files: it is {status.state}. {status.detail}")
-        return self._storage.plan(digest) / JOB
+        return self._kept.folder(status.plan)
 
     def file(self, digest: str, name: str) -> Path:
         """Return a file of a plan by the name that its status tells; raises NoSuch."""
@@ -146,8 +147,8 @@ class Plans:
             async with self._desk.folder() as folder:
                 shutil.copy(self._storage.pattern(order.pattern) / PATTERN, folder)
                 said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
-                self._storage.keep_plan(digest, folder)
-            write(place / DONE, said)
+                plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
+            write(place / DONE, {**said, "plan": plan})
         except TooBusy:
             raise  # it was not begun
         except FoldmillError as error:

@@ -19,6 +19,8 @@ from starlette.exceptions import HTTPException
 
 from foldmill.errors import FoldmillError, PluginFault
 from foldmill.refusals import sentence_of
+from foldmill_fabricate.jobs.errors import JobRefused, NoSuchJob
+from foldmill_fabricate.plotter.errors import LedgerRefused, PlotterError
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.sandbox import Refused, SandboxFailed
 
@@ -50,6 +52,10 @@ def register(kind: type[FoldmillError], status: int) -> None:
 
 
 register(NoSuch, 404)
+register(NoSuchJob, 404)
+register(JobRefused, 409)
+register(LedgerRefused, 409)
+register(PlotterError, 503)
 register(TooLarge, 413)
 
 

@@ -4,22 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from pathlib import Path
 
-from foldmill_fabricate.plotter.ledger import ledger_file
-
-REACHED = "reached.json"
+from foldmill_fabricate.jobs.places import Places
 
 
-def state_folder() -> Path:
-    """Return where this user's service keeps its things: beside the ledger."""
-    return ledger_file().parent / "service"
-
-
-def reached(folder: Path | None = None) -> str | None:
+def reached(places: Places | None = None) -> str | None:
     """Return the address of the service that runs on this folder; None where none does."""
     try:
-        said = json.loads(((folder or state_folder()) / REACHED).read_bytes())
+        said = json.loads((places or Places()).service.read_bytes())
         os.kill(said["pid"], 0)
     except PermissionError:
         return str(said["url"])  # another user's, and alive

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 import os
@@ -16,12 +17,15 @@ from fastapi import FastAPI
 from filelock import FileLock, Timeout
 
 from foldmill.errors import InvalidInput
+from foldmill.files import fence_process
 from foldmill_fabricate.files import write_whole
+from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.plotter.errors import PortUnavailable
 from foldmill_fabricate.service.app import create
-from foldmill_fabricate.service.reach import REACHED, reached
+from foldmill_fabricate.service.reach import reached
 from foldmill_fabricate.service.security import Policy, is_local
 from foldmill_fabricate.service.tokens import Tokens
+from foldmill_fabricate.service.workshop import Workshop
 
 LOG = logging.getLogger("foldmill.service")
 GRACE = 2
@@ -47,15 +51,18 @@ def policy(folder: Path, host: str, names: tuple[str, ...], demand: bool) -> Pol
 
 
 def serve(
-    folder: Path, who: Policy, port: int, told: Callable[[str], None] = lambda _url: None
+    workshop: Workshop, who: Policy, port: int, told: Callable[[str], None] = lambda _url: None
 ) -> None:
     """Serve until a signal ends it; ``told`` : hears the address once it is reached.
 
-    Raises PortUnavailable where the address is taken.
+    Raises PortUnavailable where the address is taken, JobRefused where another works on the jobs.
     """
-    with _alone(folder), _bound(who.host, port) as listening:
+    places = workshop.places
+    fence_process(None)  # no parameter that comes from elsewhere names a file of this computer
+    with _alone(places), _bound(who.host, port) as listening:
         url = _url(who.host, listening.getsockname()[1])
-        app = create(folder, who)
+        workshop.start()  # here, so that a refusal is told before anything is served
+        app = create(workshop, who)
         config = uvicorn.Config(
             app,
             log_config=None,
@@ -65,7 +72,7 @@ def serve(
             limit_concurrency=MOST_AT_ONCE,
         )
         with suppress(KeyboardInterrupt):  # Ctrl-C is how it ends
-            _Server(config, folder / REACHED, url, told).run(sockets=[listening])
+            _Server(config, places.service, url, told).run(sockets=[listening])
 
 
 class _Server(uvicorn.Server):
@@ -92,22 +99,23 @@ class _Server(uvicorn.Server):
         app = self.config.app
         if isinstance(app, FastAPI):
             app.state.stopping.set()  # those who follow what happens are let go
+            await asyncio.to_thread(app.state.workshop.stop)  # machines before everything else
         await super().shutdown(sockets)
         LOG.info("ended")
 
 
 @contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Hold a folder; raises PortUnavailable where another service has it."""
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-    lock = FileLock(folder / "service.lock", timeout=0)
+def _alone(places: Places) -> Iterator[None]:
+    """Hold a service's folder; raises PortUnavailable where another service has it."""
+    places.root.mkdir(parents=True, exist_ok=True)
+    lock = FileLock(places.root / "service.lock", timeout=0)
     try:
         lock.acquire()
     except Timeout:
-        where = reached(folder) or "another process"
+        where = reached(places) or "another process"
         raise PortUnavailable(
-            f"A service runs in {folder} already ({where}). Use it, end it, or give this one a "
-            "--state of its own."
+            f"A service runs in {places.root} already ({where}). Use it, end it, or give this one "
+            "a --state of its own."
         ) from None
     with lock:
         yield

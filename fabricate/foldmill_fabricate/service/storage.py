@@ -63,10 +63,6 @@ class Storage:
         (place / REFUSED).unlink(missing_ok=True)
         return place
 
-    def keep_plan(self, digest: str, made: Path) -> None:
-        """Keep the job folder that was made in a folder of work."""
-        _move(made / JOB, self.folder / "plans" / digest / JOB)
-
     def _known(self, kind: str, digest: str, proof: str, word: str) -> Path:
         place = self.folder / kind / digest
         if not digest.isalnum() or not (place / proof).is_file():

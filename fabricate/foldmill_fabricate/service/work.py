@@ -27,6 +27,7 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.profiles import Style
+from foldmill_fabricate.service import as_cut as as_cuts
 from foldmill_fabricate.service.models import PlanOptions
 from foldmill_fabricate.verify import verify_folder
 
@@ -110,6 +111,11 @@ def verify(folder: Path) -> dict[str, Any]:
         "figures": asdict(found.figures),
         "findings": _plain(found.findings),
     }
+
+
+def as_cut(folder: Path, job: str, face: str, strokes: as_cuts.Strokes, title: str) -> None:
+    """Draw how a face of a sheet is cut by now; ``job`` : its job folder."""
+    (folder / "as-cut.svg").write_bytes(as_cuts.drawing(Path(job), face, strokes, title))
 
 
 def _kept(folder: Path, fold: Fold) -> dict[str, Any]:

@@ -225,7 +225,7 @@ def test_what_is_kept_outlives_the_service(tmp_path: Path) -> None:
         cut_short = second.get(f"/api/v1/plans/{url}").json()
         assert cut_short["state"] == "interrupted"
         assert "send the request again" in cut_short["detail"]
-    assert not [*(tmp_path / "scratch").iterdir()]
+    assert not [*(tmp_path / "service/scratch").iterdir()]
 
 
 def test_what_is_not_there_is_told_so(service: httpx.Client) -> None:

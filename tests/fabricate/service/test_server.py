@@ -8,42 +8,19 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
 import pytest
-from services import square
+from services import serving, square
 
+from foldmill_fabricate.jobs import Places
 from foldmill_fabricate.service.reach import reached
-
-
-@contextmanager
-def serving(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Start the command on a free port and give its process and its address."""
-    command = [sys.executable, "-m", "foldmill_fabricate", "serve", "--port", "0"]
-    with (
-        (folder / "log").open("w") as log,
-        subprocess.Popen(
-            [*command, "--state", str(folder), *words],
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=log,
-        ) as process,
-    ):
-        try:
-            assert process.stdout is not None
-            line = process.stdout.readline()
-            assert line.startswith("foldmill serves on http://"), (folder / "log").read_text()
-            yield process, line.split()[-1]
-        finally:
-            process.kill()
 
 
 def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -> None:
     with serving(tmp_path) as (process, url):
-        assert reached(tmp_path) == url
+        assert reached(Places(tmp_path, "")) == url
         with httpx.Client(base_url=url) as client:
             client.post("/api/v1/patterns", json=square())
             client.post("/api/v1/designs", json={"family": "waterbomb"}, timeout=30)
@@ -54,7 +31,7 @@ def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -
         began = time.monotonic()
         process.wait(10)
         assert time.monotonic() - began < 5
-        assert reached(tmp_path) is None
+        assert reached(Places(tmp_path, "")) is None
         for child in children.stdout.split():
             with pytest.raises(ProcessLookupError):
                 os.kill(int(child), 0)

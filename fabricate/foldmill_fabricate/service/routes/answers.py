@@ -10,6 +10,7 @@ from foldmill_fabricate.service.desk import Desk
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.planning import Plans
 from foldmill_fabricate.service.problems import MEDIA_TYPE
+from foldmill_fabricate.service.workshop import Workshop
 
 _SAID = {
     400: "The request is no HTTP that can be read.",
@@ -61,4 +62,10 @@ def desk(request: Request) -> Desk:
 def plans(request: Request) -> Plans:
     """Return the application's plans."""
     found: Plans = request.app.state.plans
+    return found
+
+
+def workshop(request: Request) -> Workshop:
+    """Return the application's jobs."""
+    found: Workshop = request.app.state.workshop
     return found

@@ -53,8 +53,7 @@ async def verification(
     plan: Digest, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
 ) -> Verification:
     """Replay the programs of a plan on a virtual sheet, and derive the plan again."""
-    those.job(plan)
-    return await at.verify(plan)
+    return await at.verify(plan, those.job(plan))
 
 
 @ROUTER.get(
