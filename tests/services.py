@@ -48,7 +48,8 @@ def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client
 @contextmanager
 def serving(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Start the command on a free port and give its process and its address."""
-    command = [sys.executable, "-m", "foldmill_fabricate", "serve", "--port", "0"]
+    command = [sys.executable, "-m", "foldmill_fabricate", "serve"]
+    words = words if "--port" in words else (*words, "--port", "0")
     folder.mkdir(exist_ok=True)
     with (
         (folder / "log").open("a") as log,

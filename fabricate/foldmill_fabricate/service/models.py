@@ -276,6 +276,19 @@ class PlanStatus(Wire):
     files: tuple[FileRow, ...] = ()
 
 
+class KeptPlan(Wire):
+    """A job folder that is kept, so that jobs can be made from it."""
+
+    plan: Digest
+    """What a job is submitted with."""
+    title: str
+    material: str
+    machine: str
+    figures: PlanFigures
+    findings: tuple[Finding, ...]
+    files: tuple[FileRow, ...]
+
+
 class ProgramRow(Wire):
     """A program of a sheet, and how far it is."""
 

@@ -19,7 +19,7 @@ from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.service.desk import PATTERN, PLANNING, Desk
-from foldmill_fabricate.service.models import PlanRequest, PlanState, PlanStatus
+from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
 from foldmill_fabricate.service.storage import JOB, REFUSED, REQUEST, read, write
@@ -110,6 +110,12 @@ class Plans:
         if status.state is not PlanState.DONE:
             raise NoSuch(f"The plan {digest} has no files: it is {status.state}. {status.detail}")
         return self._kept.folder(status.plan)
+
+    async def keep(self, folder: Path) -> KeptPlan:
+        """Prove and keep the job folder that a folder holds as the ZIP file ``upload``."""
+        said = await self._desk.call("unpack", {}, folder, PLANNING, "The job folder")
+        plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
+        return KeptPlan.model_validate({**said, "plan": plan})
 
     def file(self, digest: str, name: str) -> Path:
         """Return a file of a plan by the name that its status tells; raises NoSuch."""

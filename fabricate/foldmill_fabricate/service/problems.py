@@ -7,7 +7,6 @@ fault and goes to the log, never to who asked.
 from __future__ import annotations
 
 import logging
-import re
 from collections.abc import Mapping
 from http import HTTPStatus
 from typing import Any
@@ -23,6 +22,7 @@ from foldmill_fabricate.jobs.errors import JobRefused, NoSuchJob
 from foldmill_fabricate.plotter.errors import LedgerRefused, PlotterError
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.sandbox import Refused, SandboxFailed
+from foldmill_fabricate.service.urns import dashed, urn
 
 MEDIA_TYPE = "application/problem+json"
 LOG = logging.getLogger("foldmill.service")
@@ -65,7 +65,7 @@ def problem(status: int, detail: str, kind: str = "", **more: Any) -> JSONRespon
     if status == 401:
         headers["www-authenticate"] = 'Bearer realm="foldmill"'
     told = Problem(
-        type=f"urn:foldmill:{_dashed(kind)}" if kind else "about:blank",
+        type=urn(kind) if kind else "about:blank",
         title=_words(kind) if kind else HTTPStatus(status).phrase,
         status=status,
         detail=detail,
@@ -137,9 +137,5 @@ async def _unforeseen(request: Request, error: Exception) -> JSONResponse:
     return problem(500, _OURS, "Fault")
 
 
-def _dashed(kind: str) -> str:
-    return re.sub(r"(?<!^)(?=[A-Z])", "-", kind).lower()
-
-
 def _words(kind: str) -> str:
-    return _dashed(kind).replace("-", " ").capitalize()
+    return dashed(kind).replace("-", " ").capitalize()

@@ -24,8 +24,8 @@ MOST_JSON = 1 << 20
 """Bytes of a request."""
 MOST_UPLOAD = 32 << 20
 """Bytes of an uploaded file."""
-UPLOADS = "/api/v1/patterns"
-"""The only path that takes as much as that."""
+UPLOADS = frozenset({"/api/v1/patterns", "/api/v1/plans/kept"})
+"""The paths that take as much as that."""
 CUSTOM = "x-foldmill"
 """A header of ours, which no page of another site can send without asking."""
 UPLOAD_TYPE = "application/octet-stream"
@@ -128,7 +128,7 @@ def _refuse_large(path: str, headers: Mapping[str, str]) -> None:
     """Raise for a body that is larger than what is read, before any of it is read."""
     if "transfer-encoding" in headers:
         raise Forbidden("Say how long the body is, by Content-Length.", 411)
-    length, most = headers.get("content-length", "0"), MOST_UPLOAD if path == UPLOADS else MOST_JSON
+    length, most = headers.get("content-length", "0"), MOST_UPLOAD if path in UPLOADS else MOST_JSON
     if not length.isdecimal() or int(length) > most:
         raise TooLarge(
             f"The body has {length[:20]} bytes; at most {most:,} are read here. Leave out what is "

@@ -19,15 +19,17 @@ from foldmill.errors import UnreadableFile
 from foldmill.exchange import fold as fold_file
 from foldmill.exchange import json_text, mesh
 from foldmill.exchange.marking import marked
-from foldmill.finding import Finding
+from foldmill.finding import Finding, Severity
 from foldmill_fabricate import folder as job_folder
 from foldmill_fabricate import pictures, profiles
+from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.service import as_cut as as_cuts
+from foldmill_fabricate.service import unpacking
 from foldmill_fabricate.service.models import PlanOptions
 from foldmill_fabricate.verify import verify_folder
 
@@ -111,6 +113,21 @@ def verify(folder: Path) -> dict[str, Any]:
         "figures": asdict(found.figures),
         "findings": _plain(found.findings),
     }
+
+
+def unpack(folder: Path) -> dict[str, Any]:
+    """Unpack ``upload``, a ZIP file of a job folder, into ``job`` and prove it.
+
+    Raises UnreadableFile for what is no job folder, CannotSend for one that does not verify.
+    """
+    unpacking.unpack(folder / UPLOAD, folder / "job")
+    found = verify_folder(folder / "job")
+    if not found.ok:
+        first = next(each for each in found.findings if each.severity is Severity.ERROR)
+        raise CannotSend(f"This job folder does not verify, and nothing of it is kept. {first}")
+    plan = Plan.model_validate_json((folder / "job" / "plan.json").read_bytes())
+    slugs = {"material": plan.material.slug, "machine": plan.machine.slug}
+    return {**_account(plan, folder / "job"), **slugs}
 
 
 def as_cut(folder: Path, job: str, face: str, strokes: as_cuts.Strokes, title: str) -> None:

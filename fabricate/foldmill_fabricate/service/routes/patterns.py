@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
-from starlette.requests import ClientDisconnect
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
 from foldmill_fabricate.service.models import DesignRequest, Digest, Pattern, Report
-from foldmill_fabricate.service.problems import Forbidden, TooLarge
+from foldmill_fabricate.service.receiving import receive
 from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, problems
-from foldmill_fabricate.service.security import MOST_UPLOAD, UPLOAD_TYPE
+from foldmill_fabricate.service.security import UPLOAD_TYPE
 
 ROUTER = APIRouter(tags=["patterns"])
 At = Annotated[Desk, Depends(desk)]
 Form = Literal["fold"]
 """What can be uploaded."""
 Drawing = Literal["pattern.svg", "pattern.png", "folded.glb", "folded.stl", "folded.obj"]
-_PATIENCE = 60.0
-"""s for a body to arrive."""
 _BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
@@ -52,7 +48,7 @@ async def upload(
     """Upload a pattern: the body is the file, as JSON or as application/octet-stream."""
     async with at.folder() as folder:
         with (folder / "upload").open("wb") as file:
-            await _receive(request, file)
+            await receive(request, file)
         return _made(await at.read(folder, form, planarise), response)
 
 
@@ -97,19 +93,3 @@ async def drawing(pattern: Digest, name: Drawing, at: At, _: Viewer) -> FileResp
 def _made(pattern: Pattern, response: Response) -> Pattern:
     response.headers["location"] = f"/api/v1/patterns/{pattern.id}"
     return pattern
-
-
-async def _receive(request: Request, file: Any) -> None:
-    """Write a body into a file as it arrives; raises TooLarge, or Forbidden where it stalls."""
-    count = 0
-    try:
-        async with asyncio.timeout(_PATIENCE):
-            async for part in request.stream():
-                count += len(part)
-                if count > MOST_UPLOAD:
-                    raise TooLarge(f"The file is larger than {MOST_UPLOAD:,} bytes.")
-                file.write(part)
-    except TimeoutError:
-        raise Forbidden(f"The file had not arrived after {_PATIENCE:g} s.", 408) from None
-    except ClientDisconnect:
-        raise Forbidden("The file was cut off on its way.", 400) from None

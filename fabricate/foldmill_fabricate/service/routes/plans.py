@@ -5,25 +5,41 @@ from __future__ import annotations
 from mimetypes import guess_type
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Path, Response
+from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.responses import FileResponse
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
 from foldmill_fabricate.service.models import (
     Digest,
+    KeptPlan,
     PlanRequest,
     PlanState,
     PlanStatus,
     Verification,
 )
 from foldmill_fabricate.service.planning import Plans
-from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, plans
+from foldmill_fabricate.service.receiving import receive
+from foldmill_fabricate.service.routes.answers import (
+    CHANGING,
+    READING,
+    binary,
+    desk,
+    plans,
+    problems,
+)
+from foldmill_fabricate.service.security import UPLOAD_TYPE
 
 ROUTER = APIRouter(prefix="/plans", tags=["plans"])
 Those = Annotated[Plans, Depends(plans)]
 _ACCEPTED: dict[int | str, dict[str, Any]] = {
     202: {"model": PlanStatus, "description": "It is being made; ask for it again."}
+}
+_ZIP: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {UPLOAD_TYPE: {"schema": {"type": "string", "format": "binary"}}},
+    }
 }
 
 
@@ -34,6 +50,20 @@ async def begin(request: PlanRequest, those: Those, _: Submitter, response: Resp
     response.headers["location"] = f"/api/v1/plans/{status.id}"
     response.status_code = 202 if status.state is PlanState.WAITING else 200
     return status
+
+
+@ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_ZIP)
+async def keep(
+    request: Request, those: Those, at: Annotated[Desk, Depends(desk)], _: Submitter
+) -> KeptPlan:
+    """Keep a job folder that was planned elsewhere: the body is a ZIP file of it.
+
+    It is verified as a whole; one that is not what it says is refused.
+    """
+    async with at.folder() as folder:
+        with (folder / "upload").open("wb") as file:
+            await receive(request, file)
+        return await those.keep(folder)
 
 
 @ROUTER.get("", responses=READING)
