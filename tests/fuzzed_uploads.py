@@ -52,7 +52,19 @@ def _odd_number(chance: Chance) -> bytes:
 def _odd_value(chance: Chance) -> bytes:
     frame = square()
     key = chance.choice([*frame])
-    odd = [None, True, -1, "", "x" * 10_000, [], {}, [[]], [None], [[0, None]], [[0, 2**63]]]
+    odd: list[Any] = [
+        None,
+        True,
+        -1,
+        "",
+        "x" * 10_000,
+        [],
+        {},
+        [[]],
+        [None],
+        [[0, None]],
+        [[0, 2**63]],
+    ]
     frame[key] = chance.choice([*odd, [[0, -5]], [[0, 1, 2]], "\ud800", [[1e300, -1e300]] * 4])
     return _text(frame)
 
