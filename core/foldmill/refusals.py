@@ -54,6 +54,11 @@ def sentences(
     return [(fault["loc"], _sentence(fault, schema, branches)) for fault in error.errors()]
 
 
+def sentence_of(fault: Mapping[str, Any]) -> str:
+    """Return the sentence of one fault, as pydantic describes it."""
+    return _sentence(fault, {}, _BRANCHES)
+
+
 def _tags(node: Any) -> Iterator[str]:
     """Yield the values by which alternatives are told apart; pydantic adds them to a place too."""
     if isinstance(node, dict):

@@ -22,6 +22,7 @@ from foldmill_fabricate.cli import (
     moving,
     running,
     searching,
+    serving,
     sheets,
     testing,
 )
@@ -46,6 +47,7 @@ running.add_to(app)
 leading.add_to(app)
 sheets.add_to(app)
 jobs.add_to(app)
+serving.add_to(app)
 
 
 def main() -> None:

@@ -1,0 +1,284 @@
+"""A client of the service, typed: the values of the API, and its refusals as the errors they are.
+
+    with Client() as service:                       # the service of this user on this computer
+        star = service.design(DesignRequest(family="rotational", preset="star-n6"))
+        plan = service.planned(PlanRequest(pattern=star.id, material="pp-0.75",
+                                           machine="generic-hpgl-600"))
+        job = service.submit(Submission(plan=plan.plan, plotter="bench"))
+        for event in service.follow(job=job.id):
+            ...
+
+It has the verbs of ``foldmill_fabricate.jobs.Jobs``, so that whoever uses those need not know where
+the jobs are. A service elsewhere wants a token.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self, TypeVar
+
+import httpx
+from pydantic import TypeAdapter
+
+from foldmill_fabricate.files import write_all
+from foldmill_fabricate.jobs.states import JobState
+from foldmill_fabricate.jobs.values import (
+    Event,
+    Happening,
+    JobRecord,
+    Question,
+    Reply,
+    Submission,
+)
+from foldmill_fabricate.service import answers, models
+from foldmill_fabricate.service.answers import Unreachable as Unreachable
+from foldmill_fabricate.service.reach import reached
+from foldmill_fabricate.service.unpacking import pack
+
+T = TypeVar("T")
+_PREFIX = "/api/v1"
+_UPLOAD = {"content-type": "application/octet-stream", "x-foldmill": "1"}
+_LOOK = 0.3
+"""s between two looks at a plan that is being made."""
+
+
+class Client:
+    """A service, at an address.
+
+    url : by default where this user's service says it is. token : as ``foldmill serve --new-token``
+    told it. seconds : how long an answer may take. Raises Unreachable where no service runs.
+    """
+
+    def __init__(self, url: str = "", token: str = "", seconds: float = 120.0) -> None:
+        found = url or reached()
+        if found is None:
+            raise Unreachable("No service runs here; start one with foldmill serve.")
+        self.url = found.rstrip("/")
+        headers = {"authorization": f"Bearer {token}"} if token else {}
+        self._http = httpx.Client(
+            base_url=self.url + _PREFIX, headers=headers, timeout=seconds, trust_env=False
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        _kind: type[BaseException] | None,
+        _error: BaseException | None,
+        _trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the connection."""
+        self._http.close()
+
+    # ── what there is ────────────────────────────────────────────────────────────────────────────
+
+    def about(self) -> models.About:
+        """Return what answers, and what this client may do."""
+        return self._get(models.About, "")
+
+    def families(self) -> list[models.FamilyRow]:
+        """Return the families of patterns."""
+        return self._get(list[models.FamilyRow], "/families")
+
+    def family(self, slug: str) -> models.Family:
+        """Return a family with its parameters."""
+        return self._get(models.Family, f"/families/{answers.quoted(slug)}")
+
+    def materials(self) -> list[models.PresetRow]:
+        """Return the sheet materials."""
+        return self._get(list[models.PresetRow], "/materials")
+
+    def material(self, slug: str) -> models.PresetPage:
+        """Return a material with its fields."""
+        return self._get(models.PresetPage, f"/materials/{answers.quoted(slug)}")
+
+    def machines(self) -> list[models.PresetRow]:
+        """Return the machines."""
+        return self._get(list[models.PresetRow], "/machines")
+
+    def machine(self, slug: str) -> models.PresetPage:
+        """Return a machine with its fields."""
+        return self._get(models.PresetPage, f"/machines/{answers.quoted(slug)}")
+
+    def plotters(self) -> list[models.PlotterStatus]:
+        """Return the plotters, and what each does now."""
+        return self._get(list[models.PlotterStatus], "/plotters")
+
+    # ── patterns and plans ───────────────────────────────────────────────────────────────────────
+
+    def design(self, request: models.DesignRequest) -> models.Pattern:
+        """Make a design."""
+        return self._post(models.Pattern, "/designs", request.model_dump(mode="json"))
+
+    def upload(self, content: bytes, *, planarise: bool = False) -> models.Pattern:
+        """Keep the pattern of a FOLD file."""
+        asked = {"planarise": str(planarise).lower()}
+        return self._send(models.Pattern, "/patterns", content, asked)
+
+    def pattern(self, digest: str) -> models.Pattern:
+        """Return what is known of a pattern."""
+        return self._get(models.Pattern, f"/patterns/{digest}")
+
+    def fold(self, digest: str) -> bytes:
+        """Return the FOLD file of a pattern."""
+        return self._bytes(f"/patterns/{digest}/pattern.fold")
+
+    def drawing(self, digest: str, name: str) -> bytes:
+        """Return a drawing of a pattern, such as pattern.svg or folded.glb."""
+        return self._bytes(f"/patterns/{digest}/drawings/{answers.quoted(name)}")
+
+    def check(self, digest: str) -> models.Report:
+        """Check that a pattern folds."""
+        return self._get(models.Report, f"/patterns/{digest}/check")
+
+    def plan(self, request: models.PlanRequest) -> models.PlanStatus:
+        """Have a sheet planned; return how that stands."""
+        return self._post(models.PlanStatus, "/plans", request.model_dump(mode="json"))
+
+    def plan_status(self, digest: str) -> models.PlanStatus:
+        """Return how a plan stands."""
+        return self._get(models.PlanStatus, f"/plans/{digest}")
+
+    def planned(self, request: models.PlanRequest) -> models.PlanStatus:
+        """Have a sheet planned and wait for it; raises CannotPlan with the sentence."""
+        status = self.plan(request)
+        while status.state is models.PlanState.WAITING:
+            time.sleep(_LOOK)
+            status = self.plan_status(status.id)
+        return answers.done(status)
+
+    def verification(self, digest: str) -> models.Verification:
+        """Verify a plan on a virtual sheet."""
+        return self._get(models.Verification, f"/plans/{digest}/verification")
+
+    def save(self, plan: models.PlanStatus, folder: Path) -> None:
+        """Write the files of a plan that is done into a folder, plan.json last."""
+        names = sorted((row.name for row in plan.files), key=lambda name: name == "plan.json")
+        write_all(folder, {n: self._bytes(f"/plans/{plan.id}/files/{n}") for n in names})
+
+    # ── jobs ─────────────────────────────────────────────────────────────────────────────────────
+
+    def keep(self, folder: Path) -> str:
+        """Keep a job folder; return the id of its plan."""
+        return self._send(models.KeptPlan, "/plans/kept", pack(folder), {}).plan
+
+    def submit(self, asked: Submission, who: str = "") -> JobRecord:
+        """Put a job in the queue of its plotter."""
+        return self._post(JobRecord, "/jobs", asked.model_dump(mode="json"), who)
+
+    def machine_of(self, plotter: str) -> str:
+        """Return the slug of a plotter's machine; raises NoSuchJob."""
+        return answers.named(self.plotters(), plotter).machine
+
+    def jobs(self, states: Sequence[JobState] = (), plotter: str = "") -> list[JobRecord]:
+        """Return jobs, the newest first."""
+        asked = {"state": [state.value for state in states], "plotter": plotter}
+        return self._get(list[JobRecord], "/jobs", asked)
+
+    def job(self, name: str) -> JobRecord:
+        """Return a job."""
+        return self._get(JobRecord, f"/jobs/{answers.quoted(name)}")
+
+    def questions(self, job: str = "") -> list[Question]:
+        """Return what people are asked now."""
+        return self._get(list[Question], "/questions", {"job": job})
+
+    def answer(self, question: str, reply: Reply, who: str = "") -> None:
+        """Answer a question, once."""
+        path = f"/questions/{answers.quoted(question)}/answer"
+        self._post(JobRecord, path, reply.model_dump(mode="json"), who)
+
+    def pause(self, name: str, who: str = "") -> JobRecord:
+        """Have nothing more of a job cut for now."""
+        return self._want(name, "pause", {}, who)
+
+    def resume(self, name: str, who: str = "") -> JobRecord:
+        """Take back a pause."""
+        return self._want(name, "resume", {}, who)
+
+    def cancel(self, name: str, who: str = "") -> JobRecord:
+        """End a job."""
+        return self._want(name, "cancel", {}, who)
+
+    def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
+        """Change a job's place in the queue."""
+        return self._want(name, "priority", {"priority": priority}, who)
+
+    def history(self, name: str) -> list[Happening]:
+        """Return who did what, and when, to a job and its sheets."""
+        return self._get(list[Happening], f"/jobs/{answers.quoted(name)}/history")
+
+    def sheets(self, name: str) -> list[models.SheetPage]:
+        """Return how far each sheet of a job is."""
+        return self._get(list[models.SheetPage], f"/jobs/{answers.quoted(name)}/sheets")
+
+    def as_cut(self, name: str, sheet: str, face: str) -> bytes:
+        """Return a drawing, SVG, of how a face of a sheet is cut by now."""
+        path = f"/jobs/{answers.quoted(name)}/sheets/{answers.quoted(sheet)}"
+        return self._bytes(f"{path}/{answers.quoted(face)}.svg")
+
+    def transcripts(self, name: str) -> list[str]:
+        """Return the names of what went over the wire for a job, the oldest first."""
+        return self._get(list[str], f"/jobs/{answers.quoted(name)}/transcripts")
+
+    def transcript(self, name: str, file: str) -> bytes:
+        """Return what went over the wire, JSON lines."""
+        path = f"/jobs/{answers.quoted(name)}/transcripts/{answers.quoted(file)}"
+        return self._bytes(path)
+
+    def job_file(self, name: str, file: str) -> bytes:
+        """Return a file of the plan that a job is made from."""
+        return self._bytes(f"/jobs/{answers.quoted(name)}/files/{answers.quoted(file)}")
+
+    def follow(
+        self,
+        after: int = 0,
+        job: str = "",
+        patience: float = 60.0,
+        tell: Callable[[Any], None] = lambda _progress: None,
+    ) -> Iterator[Event]:
+        """Yield what happens to jobs, from the event after ``after`` on, without end.
+
+        A connection that breaks is made again, and nothing is missed nor told twice; raises
+        Unreachable after ``patience`` seconds without one. tell : hears how far sheets are.
+        """
+        return answers.follow(self._http, after, job, patience, tell)
+
+    # ── on the wire ──────────────────────────────────────────────────────────────────────────────
+
+    def _get(self, kind: type[T], path: str, asked: Mapping[str, Any] | None = None) -> T:
+        return self._read(kind, self._answered("GET", path, params=asked))
+
+    def _bytes(self, path: str) -> bytes:
+        return self._answered("GET", path).content
+
+    def _post(self, kind: type[T], path: str, body: Any, who: str = "") -> T:
+        asked = {"who": who} if who else {}
+        return self._read(kind, self._answered("POST", path, json=body, params=asked))
+
+    def _send(self, kind: type[T], path: str, content: bytes, asked: Mapping[str, str]) -> T:
+        answer = self._answered("POST", path, content=content, headers=_UPLOAD, params=asked)
+        return self._read(kind, answer)
+
+    def _want(self, name: str, verb: str, body: Any, who: str) -> JobRecord:
+        return self._post(JobRecord, f"/jobs/{answers.quoted(name)}/{verb}", body, who)
+
+    def _answered(self, method: str, path: str, **how: Any) -> httpx.Response:
+        """Return an answer; raises the error that the service tells of, or Unreachable."""
+        try:
+            answer = self._http.request(method, path, **how)
+        except httpx.HTTPError as error:
+            raise answers.unreachable(self.url, error) from None
+        if answer.is_error:
+            raise answers.refusal(answer)
+        return answer
+
+    def _read(self, kind: type[T], answer: httpx.Response) -> T:
+        return TypeAdapter(kind).validate_json(answer.content)

@@ -1,0 +1,130 @@
+"""What the client makes of answers: refusals as the errors they are, events as they come."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+from urllib.parse import quote
+
+import httpx
+
+from foldmill.errors import FoldmillError
+from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.jobs.errors import NoSuchJob
+from foldmill_fabricate.jobs.values import Event
+from foldmill_fabricate.service.models import PlanState, PlanStatus, PlotterStatus
+from foldmill_fabricate.service.urns import urn
+
+_AGAIN = 0.5
+"""s before a connection that broke is made again."""
+
+
+class ServiceRefused(FoldmillError, RuntimeError):
+    """A refusal of the service that has no class of its own here."""
+
+
+class Unreachable(FoldmillError, OSError):
+    """A service that does not answer."""
+
+
+def quoted(part: str) -> str:
+    """Return a name as one part of a path."""
+    return quote(part, safe="")
+
+
+def refusal(answer: httpx.Response) -> FoldmillError:
+    """Return the error that an answer tells of, with the service's sentence."""
+    try:
+        told = answer.json()
+        kind, detail = str(told["type"]), str(told["detail"])
+    except (ValueError, KeyError, TypeError):
+        return ServiceRefused(f"The service answers {answer.status_code} and says no more.")
+    for each in _kinds(FoldmillError):
+        if urn(each.__name__) == kind:
+            try:
+                return each(detail)
+            except TypeError:  # it wants to know more than a sentence
+                break
+    return ServiceRefused(detail)
+
+
+def unreachable(url: str, error: httpx.HTTPError) -> Unreachable:
+    """Return the sentence on a service that does not answer."""
+    why = str(error) or type(error).__name__
+    return Unreachable(f"The service at {url} does not answer: {why}. Does foldmill serve run?")
+
+
+def done(status: PlanStatus) -> PlanStatus:
+    """Return a plan that is done; raises CannotPlan with the sentence for any other."""
+    if status.state is not PlanState.DONE:
+        raise CannotPlan(status.detail)
+    return status
+
+
+def named(plotters: Iterable[PlotterStatus], name: str) -> PlotterStatus:
+    """Return a plotter; raises NoSuchJob with the names there are."""
+    known = {plotter.name: plotter for plotter in plotters}
+    if name not in known:
+        there = ", ".join(known) or "none: name them where the service runs"
+        raise NoSuchJob(f"There is no plotter {name[:40]!r}. There are: {there}.")
+    return known[name]
+
+
+def follow(
+    http: httpx.Client, after: int, job: str, patience: float, tell: Callable[[Any], None]
+) -> Iterator[Event]:
+    """Yield events without end, over as many connections as it takes."""
+    heard_at = time.monotonic()
+    while True:
+        try:
+            for kind, data in _stream(http, after, job):
+                heard_at = time.monotonic()
+                if kind == "job":
+                    event = Event.model_validate_json(data)
+                    after = event.number
+                    yield event
+                elif kind == "progress":
+                    tell(json.loads(data))
+        except httpx.HTTPError as error:
+            if time.monotonic() - heard_at > patience:
+                raise unreachable(str(http.base_url), error) from None
+            time.sleep(_AGAIN)
+
+
+def _stream(http: httpx.Client, after: int, job: str) -> Iterator[tuple[str, str]]:
+    """Yield (event, data) of one connection; raises HTTPError where it breaks."""
+    headers = {"last-event-id": str(after)} if after else {}
+    silence = httpx.Timeout(60.0)  # a living service sends a comment every 15 s
+    asked = {"job": job}
+    with http.stream("GET", "/events", params=asked, headers=headers, timeout=silence) as answer:
+        if answer.is_error:
+            answer.read()
+            if answer.status_code == 503:
+                raise httpx.ReadError("it is full, or ending")
+            raise refusal(answer)
+        yield "open", ""
+        yield from events(answer.iter_lines())
+
+
+def events(lines: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Yield (event, data) of server-sent events; comments, ids and retries are left out."""
+    kind = "message"
+    data: list[str] = []
+    for line in lines:
+        name, _, value = line.partition(":")
+        if not line:
+            if data:
+                yield kind, "\n".join(data)
+            kind, data = "message", []
+        elif name == "event":
+            kind = value.removeprefix(" ")
+        elif name == "data":
+            data.append(value.removeprefix(" "))
+
+
+def _kinds(root: type[FoldmillError]) -> Iterator[type[FoldmillError]]:
+    for each in root.__subclasses__():
+        yield each
+        yield from _kinds(each)

@@ -1,0 +1,101 @@
+"""The application: routes, guard, errors, and what lives as long as it does."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.metadata import version
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from foldmill import installed
+from foldmill_fabricate.service import problems
+from foldmill_fabricate.service.desk import WORK, Desk
+from foldmill_fabricate.service.events import Followers
+from foldmill_fabricate.service.logs import PREFIX, Watch
+from foldmill_fabricate.service.metrics import Metrics, computing
+from foldmill_fabricate.service.models import Problem
+from foldmill_fabricate.service.planning import Plans
+from foldmill_fabricate.service.routes import catalogue, events, health, jobs, patterns, plans
+from foldmill_fabricate.service.sandbox import Sandbox
+from foldmill_fabricate.service.security import Guard, Policy
+from foldmill_fabricate.service.storage import Storage
+from foldmill_fabricate.service.workshop import Workshop
+
+ROUTERS = (catalogue.ROUTER, patterns.ROUTER, plans.ROUTER, jobs.ROUTER, events.ROUTER)
+ABOUT = """From an origami design to a sheet that a cutting plotter scores on both faces.
+
+Lengths in mm, angles in degrees, times in s. Errors are `application/problem+json`; their detail
+is a sentence for people. Whatever changes something is sent as JSON."""
+
+
+def create(
+    workshop: Workshop, policy: Policy | None = None, sandbox: Sandbox | None = None
+) -> FastAPI:
+    """Return the application.
+
+    workshop : its jobs, and where it keeps its things; it starts and ends with the application.
+    policy : who is let in, by default this computer alone. sandbox : by default one of its own.
+    """
+    app = FastAPI(
+        title="foldmill",
+        version=version("foldmill"),
+        description=ABOUT,
+        lifespan=_lifespan,
+        openapi_url=f"{PREFIX}/openapi.json",
+        docs_url=None,  # its page loads scripts from elsewhere
+        redoc_url=None,
+    )
+    _furnish(app, workshop, policy or Policy(), sandbox)
+    for router in ROUTERS:
+        app.include_router(router, prefix=PREFIX)
+    app.include_router(health.ROUTER)
+    problems.add_to(app)
+    app.add_middleware(Guard, policy=app.state.policy)
+    app.add_middleware(Watch, metrics=app.state.metrics)
+    app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
+    return app
+
+
+def _furnish(app: FastAPI, workshop: Workshop, policy: Policy, sandbox: Sandbox | None) -> None:
+    """Give the application what its routes use."""
+    storage = Storage(workshop.places.root / "service")
+    desk = Desk(storage, sandbox or Sandbox(storage.scratch, [WORK]))
+    app.state.policy, app.state.workshop, app.state.desk = policy, workshop, desk
+    app.state.plans = Plans(desk, workshop.desk.plans)
+    app.state.stopping, app.state.followers = asyncio.Event(), Followers()
+    app.state.metrics = Metrics()
+    app.state.metrics.ask(computing(lambda: desk.sandbox.load))
+    app.state.metrics.ask(workshop.measured.collect)
+
+
+@asynccontextmanager
+async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
+    desk: Desk = app.state.desk
+    workshop: Workshop = app.state.workshop
+    desk.sandbox.start()
+    try:
+        await asyncio.to_thread(installed)
+        await asyncio.to_thread(workshop.start)
+        yield
+    finally:
+        app.state.stopping.set()
+        await asyncio.to_thread(workshop.close)
+        await app.state.plans.finish()
+        await asyncio.to_thread(desk.sandbox.close)
+
+
+def _openapi(app: FastAPI) -> dict[str, object]:
+    """Return the description of all routes, with the form of a problem among the schemas."""
+    if app.openapi_schema is None:
+        made = get_openapi(
+            title=app.title, version=app.version, description=ABOUT, routes=app.routes
+        )
+        schemas = made.setdefault("components", {}).setdefault("schemas", {})
+        schemas["Problem"] = Problem.model_json_schema()
+        for unused in ("HTTPValidationError", "ValidationError"):
+            schemas.pop(unused, None)
+        app.openapi_schema = made
+    return app.openapi_schema

@@ -1,0 +1,31 @@
+"""Bodies that are files: written to disk as they arrive, and never held whole."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import BinaryIO
+
+from fastapi import Request
+from starlette.requests import ClientDisconnect
+
+from foldmill_fabricate.service.problems import Forbidden, TooLarge
+from foldmill_fabricate.service.security import MOST_UPLOAD
+
+_PATIENCE = 60.0
+"""s for a body to arrive."""
+
+
+async def receive(request: Request, file: BinaryIO) -> None:
+    """Write a body into a file as it arrives; raises TooLarge, or Forbidden where it stalls."""
+    count = 0
+    try:
+        async with asyncio.timeout(_PATIENCE):
+            async for part in request.stream():
+                count += len(part)
+                if count > MOST_UPLOAD:
+                    raise TooLarge(f"The file is larger than {MOST_UPLOAD:,} bytes.")
+                file.write(part)
+    except TimeoutError:
+        raise Forbidden(f"The file had not arrived after {_PATIENCE:g} s.", 408) from None
+    except ClientDisconnect:
+        raise Forbidden("The file was cut off on its way.", 400) from None

@@ -1,0 +1,95 @@
+"""Patterns: made from a design, or uploaded; looked at, drawn and checked."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi.responses import FileResponse
+
+from foldmill_fabricate.service.callers import Submitter, Viewer
+from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
+from foldmill_fabricate.service.models import DesignRequest, Digest, Pattern, Report
+from foldmill_fabricate.service.receiving import receive
+from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, problems
+from foldmill_fabricate.service.security import UPLOAD_TYPE
+
+ROUTER = APIRouter(tags=["patterns"])
+At = Annotated[Desk, Depends(desk)]
+Form = Literal["fold"]
+"""What can be uploaded."""
+Drawing = Literal["pattern.svg", "pattern.png", "folded.glb", "folded.stl", "folded.obj"]
+_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "application/json": {"schema": {"type": "object", "title": "FOLD"}},
+            UPLOAD_TYPE: {"schema": {"type": "string", "format": "binary"}},
+        },
+    }
+}
+
+
+@ROUTER.post("/designs", status_code=201, responses=CHANGING)
+async def design(request: DesignRequest, at: At, _: Submitter, response: Response) -> Pattern:
+    """Make a design; its pattern is kept."""
+    return _made(await at.design(request), response)
+
+
+@ROUTER.post("/patterns", status_code=201, responses=CHANGING | problems(408), openapi_extra=_BODY)
+async def upload(
+    request: Request,
+    at: At,
+    _: Submitter,
+    response: Response,
+    form: Annotated[Form, Query(description="What the file is.")] = "fold",
+    planarise: Annotated[bool, Query(description="Mend lines that cross.")] = False,
+) -> Pattern:
+    """Upload a pattern: the body is the file, as JSON or as application/octet-stream."""
+    async with at.folder() as folder:
+        with (folder / "upload").open("wb") as file:
+            await receive(request, file)
+        return _made(await at.read(folder, form, planarise), response)
+
+
+@ROUTER.get("/patterns", responses=READING)
+def patterns(at: At, _: Viewer) -> list[Pattern]:
+    """List the patterns that are kept."""
+    return [Pattern.model_validate(about) for about in at.storage.patterns()]
+
+
+@ROUTER.get("/patterns/{pattern}", responses=READING)
+def pattern(pattern: Digest, at: At, _: Viewer) -> Pattern:
+    """Tell what is known of a pattern."""
+    return at.pattern(pattern)
+
+
+@ROUTER.get("/patterns/{pattern}/check", responses=READING)
+async def check(pattern: Digest, at: At, _: Viewer) -> Report:
+    """Check that a pattern folds: developable, planar, isometric, free of penetration."""
+    return await at.check(pattern)
+
+
+@ROUTER.get(
+    "/patterns/{pattern}/pattern.fold",
+    responses=READING | binary("application/json", "The FOLD file."),
+    response_class=FileResponse,
+)
+def fold(pattern: Digest, at: At, _: Viewer) -> FileResponse:
+    """Get the FOLD file of a pattern."""
+    return FileResponse(at.storage.pattern(pattern) / PATTERN, media_type="application/json")
+
+
+@ROUTER.get(
+    "/patterns/{pattern}/drawings/{name}",
+    responses=READING | binary("application/octet-stream", "The drawing, as its name says."),
+    response_class=FileResponse,
+)
+async def drawing(pattern: Digest, name: Drawing, at: At, _: Viewer) -> FileResponse:
+    """Get a drawing of a pattern, or a mesh of its folded form."""
+    return FileResponse(await at.drawing(pattern, name), media_type=DRAWINGS[name])
+
+
+def _made(pattern: Pattern, response: Response) -> Pattern:
+    response.headers["location"] = f"/api/v1/patterns/{pattern.id}"
+    return pattern

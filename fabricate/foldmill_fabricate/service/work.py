@@ -1,0 +1,210 @@
+"""What runs in the sandbox: functions of a folder and plain values, which return plain values.
+
+Each finds its files in the folder and leaves there what it makes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldmill import Assignment, Fold, installed
+from foldmill.check import check as check_fold
+from foldmill.errors import UnreadableFile
+from foldmill.exchange import fold as fold_file
+from foldmill.exchange import json_text, mesh
+from foldmill.exchange.marking import marked
+from foldmill.finding import Finding, Severity
+from foldmill_fabricate import folder as job_folder
+from foldmill_fabricate import pictures, profiles
+from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Material
+from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.plan import make
+from foldmill_fabricate.profiles import Style
+from foldmill_fabricate.service import as_cut as as_cuts
+from foldmill_fabricate.service import unpacking
+from foldmill_fabricate.service.models import PlanOptions
+from foldmill_fabricate.verify import verify_folder
+
+MOST_ELEMENTS = 200_000
+"""Vertices, edges and faces of a file that is uploaded, together."""
+PATTERN, UPLOAD = "pattern.fold", "upload"
+_COUNTED = ("vertices_coords", "edges_vertices", "faces_vertices")
+
+
+def warm() -> None:
+    """Load what every child will need."""
+    installed()
+
+
+def read(folder: Path, form: str, planarise: bool) -> dict[str, Any]:
+    """Read ``upload``, leave it as ``pattern.fold`` and say what it is."""
+    return _kept(folder, READERS[form]((folder / UPLOAD).read_bytes(), planarise))
+
+
+def design(
+    folder: Path, family: str, preset: str | None, params: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Make a design from a preset and the parameters that differ from it, and keep it."""
+    offered = installed().design(family)
+    base = offered.preset(preset) if preset else offered.params()
+    return _kept(folder, offered.run({**base.model_dump(), **params}))
+
+
+def check(folder: Path) -> dict[str, Any]:
+    """Check ``pattern.fold``: its figures and findings."""
+    found = check_fold(_fold(folder))
+    return {"figures": dict(found.figures), "findings": _plain(found.findings)}
+
+
+def draw(folder: Path, name: str) -> str:
+    """Draw ``pattern.fold`` into a file; return the name of it."""
+    (folder / name).write_bytes(_drawn(_fold(folder), Path(name).suffix))
+    return name
+
+
+def plan(
+    folder: Path,
+    material: Mapping[str, Any],
+    machine: Mapping[str, Any],
+    options: Mapping[str, Any],
+    formats: Sequence[str],
+    profile: str,
+) -> dict[str, Any]:
+    """Plan ``pattern.fold`` into the folder ``job``; return the plan without its strokes."""
+    style = Style(profiles.find(profile), "R2000")
+    of, on = Material.model_validate(material), Machine.model_validate(machine)
+    fold = _fold(folder)
+    made = make(fold, of, on, **PlanOptions.model_validate(options).as_made())
+    written = job_folder.write(fold, made, folder / "job", formats, style)
+    return _account(written, folder / "job")
+
+
+def _account(plan: Plan, folder: Path) -> dict[str, Any]:
+    """Return what is told of a plan without its strokes."""
+    digests = {program.name: program.sha256 for program in plan.programs}
+    files = [
+        {"name": file.name, "bytes": file.stat().st_size, "sha256": digests.get(file.name, "")}
+        for file in sorted(folder.iterdir())
+    ]
+    names = ("strokes", "drawn", "travel", "seconds")
+    figures = {name: getattr(plan.figures, name) for name in names}
+    set_ups = sum(len(work.setups) for work in plan.passes)
+    return {
+        "title": plan.title,
+        "figures": {"set_ups": set_ups, **figures},
+        "findings": _plain(plan.findings),
+        "files": files,
+    }
+
+
+def verify(folder: Path) -> dict[str, Any]:
+    """Verify the job folder ``job``."""
+    found = verify_folder(folder / "job")
+    return {
+        "ok": found.ok,
+        "figures": asdict(found.figures),
+        "findings": _plain(found.findings),
+    }
+
+
+def unpack(folder: Path) -> dict[str, Any]:
+    """Unpack ``upload``, a ZIP file of a job folder, into ``job`` and prove it.
+
+    Raises UnreadableFile for what is no job folder, CannotSend for one that does not verify.
+    """
+    unpacking.unpack(folder / UPLOAD, folder / "job")
+    found = verify_folder(folder / "job")
+    if not found.ok:
+        first = next(each for each in found.findings if each.severity is Severity.ERROR)
+        raise CannotSend(f"This job folder does not verify, and nothing of it is kept. {first}")
+    plan = Plan.model_validate_json((folder / "job" / "plan.json").read_bytes())
+    slugs = {"material": plan.material.slug, "machine": plan.machine.slug}
+    return {**_account(plan, folder / "job"), **slugs}
+
+
+def as_cut(folder: Path, job: str, face: str, strokes: as_cuts.Strokes, title: str) -> None:
+    """Draw how a face of a sheet is cut by now; ``job`` : its job folder."""
+    (folder / "as-cut.svg").write_bytes(as_cuts.drawing(Path(job), face, strokes, title))
+
+
+def _kept(folder: Path, fold: Fold) -> dict[str, Any]:
+    found = check_fold(fold)
+    content = fold_file.write(marked(fold, found.findings)).encode()
+    (folder / PATTERN).write_bytes(content)
+    return {
+        "id": hashlib.sha256(content).hexdigest(),
+        "bytes": len(content),
+        "findings": _plain(found.findings),
+        **_summary(fold),
+    }
+
+
+def _summary(fold: Fold) -> dict[str, Any]:
+    """Return what is told of a fold without asking for more."""
+    pattern, folded = fold.pattern, fold.folded
+    size = np.ptp(pattern.vertices, axis=0) if len(pattern.vertices) else np.zeros(2)
+    solid = None if folded is None or not len(folded.vertices) else np.ptp(folded.vertices, axis=0)
+    notes = fold.meta.get("fold", {}).get("notes", [])
+    return {
+        "title": str(fold.meta.get("title", "")),
+        "vertices": len(pattern.vertices),
+        "edges": len(pattern.edges),
+        "faces": len(pattern.faces),
+        "creases": {each.name: pattern.count(each) for each in Assignment},
+        "width": float(size[0]),
+        "height": float(size[1]),
+        "folded": None if solid is None else [float(side) for side in solid],
+        "notes": [str(note) for note in notes],
+    }
+
+
+def _plain(findings: Sequence[Finding]) -> list[dict[str, Any]]:
+    return [asdict(finding) for finding in findings]
+
+
+def _fold(folder: Path) -> Fold:
+    return fold_file.read((folder / PATTERN).read_text(encoding="utf-8"), PATTERN)
+
+
+def _drawn(fold: Fold, suffix: str) -> bytes:
+    if suffix == ".svg":
+        return pictures.pattern_svg(fold)
+    if suffix == ".png":
+        return pictures.pattern_picture(fold)
+    return mesh.write_mesh(fold, suffix)
+
+
+def _read_fold(content: bytes, planarise: bool) -> Fold:
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise UnreadableFile(
+            f"The file is no UTF-8 text: {error.reason}, byte {error.start}."
+        ) from None
+    _refuse_many(json_text.parse(text))
+    return fold_file.read(text, planarise=planarise)
+
+
+def _refuse_many(data: Mapping[str, Any]) -> None:
+    """Raise UnreadableFile where a file has more elements than anybody waits for."""
+    others = data.get("file_frames")
+    frames = [data, *(others if isinstance(others, list) else ())]
+    lists = [frame.get(key) for frame in frames if isinstance(frame, dict) for key in _COUNTED]
+    count = sum(len(each) for each in lists if isinstance(each, list))
+    if count > MOST_ELEMENTS:
+        raise UnreadableFile(
+            f"The file has {count:,} vertices, edges and faces; at most {MOST_ELEMENTS:,} are "
+            "read here. Leave out what is not to be cut, or read it on a machine of your own."
+        )
+
+
+READERS = {"fold": _read_fold}
+"""What can be uploaded: the name of a form, and its reader."""

@@ -1,0 +1,89 @@
+"""``foldmill serve`` as a process: found when it runs, gone when it is told to go."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import httpx
+import pytest
+from services import serving, square
+
+from foldmill_fabricate.jobs import Places
+from foldmill_fabricate.service.reach import reached
+
+
+def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -> None:
+    with serving(tmp_path) as (process, url):
+        assert reached(Places(tmp_path, "")) == url
+        with httpx.Client(base_url=url) as client:
+            client.post("/api/v1/patterns", json=square())
+            client.post("/api/v1/designs", json={"family": "waterbomb"}, timeout=30)
+        children = subprocess.run(
+            ["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=True
+        )
+        process.send_signal(signal.SIGTERM)
+        began = time.monotonic()
+        process.wait(10)
+        assert time.monotonic() - began < 5
+        assert reached(Places(tmp_path, "")) is None
+        for child in children.stdout.split():
+            with pytest.raises(ProcessLookupError):
+                os.kill(int(child), 0)
+    lines = [json.loads(line) for line in (tmp_path / "log").read_text().splitlines()]
+    assert {"time", "level", "logger", "message"} <= {*lines[0]}
+    posted = next(line for line in lines if line.get("path") == "/api/v1/patterns")
+    assert (posted["method"], posted["status"]) == ("POST", 201)
+
+
+def test_no_second_service_runs_on_the_same_folder(tmp_path: Path) -> None:
+    with serving(tmp_path) as (_, url):
+        words = ["serve", "--port", "0", "--state", str(tmp_path)]
+        second = subprocess.run(
+            [sys.executable, "-m", "foldmill_fabricate", *words],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert second.returncode == 2
+        assert f"A service runs in {tmp_path} already ({url})." in second.stderr
+        assert httpx.get(f"{url}/healthz").json()["ok"]
+
+
+def test_a_token_is_told_once_and_never_logged(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "foldmill_fabricate", "serve", "--state", str(tmp_path)]
+    made = subprocess.run(
+        [*command, "--new-token", "anna", "--scope", "submit"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    secret = made.stdout.strip()
+    with serving(tmp_path, "--demand-tokens") as (_, url):
+        assert httpx.get(f"{url}/api/v1").status_code == 401
+        for path in ("/api/v1", f"/api/v1/patterns?token={secret}", "/api/v1/nothing"):
+            httpx.get(f"{url}{path}", headers={"authorization": f"Bearer {secret}"})
+        told = httpx.get(f"{url}/api/v1", headers={"authorization": f"Bearer {secret}"})
+        assert told.json()["scope"] == "submit"
+    log = (tmp_path / "log").read_text()
+    assert '"who": "anna"' in log
+    assert secret not in log
+    assert "Traceback" not in log
+
+
+def test_an_address_for_others_is_refused_without_a_token(tmp_path: Path) -> None:
+    words = ["serve", "--host", "0.0.0.0", "--port", "0", "--state", str(tmp_path)]
+    refused = subprocess.run(
+        [sys.executable, "-m", "foldmill_fabricate", *words],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert refused.returncode == 2
+    assert "anybody could start a cut" in refused.stderr
+    assert "--new-token" in refused.stderr
