@@ -10,6 +10,7 @@ from foldmill import Fold, installed
 from foldmill.check import check
 from foldmill.finding import has_errors
 from foldmill_fabricate import folder, pictures
+from foldmill_fabricate.cli.demo_job import make_job
 from foldmill_fabricate.cli.designing import save
 from foldmill_fabricate.cli.making import describe, presets
 from foldmill_fabricate.delivering import send_job
@@ -36,6 +37,7 @@ def make_stool(out: Path, say: Say) -> None:
     _plan(fold, out, say)
     _verify(out, say)
     _send(out, say)
+    make_job(out, f"sim://{MACHINE}", say)
     say(f"\nDone in {perf_counter() - began:.1f} s. Everything is in {out}/:")
     say("  " + "  ".join(sorted(path.name for path in out.iterdir())))
 

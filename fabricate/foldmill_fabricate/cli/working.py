@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import signal
 from collections.abc import Callable, Sequence
 from threading import Event
@@ -13,6 +14,8 @@ from foldmill import FoldmillError
 if TYPE_CHECKING:
     from foldmill_fabricate.jobs import Jobs, Places
 
+TOKEN, SERVICE = "FOLDMILL_TOKEN", "FOLDMILL_SERVICE"
+"""Variables of the environment: a service's token, and the address of one elsewhere."""
 MISSING = (
     "Jobs are worked on with the service's packages, and some are missing: install "
     "foldmill[service]."
@@ -20,11 +23,34 @@ MISSING = (
 
 
 def desk(more: Sequence[str]) -> tuple[Jobs, bool]:
-    """Return the verbs of jobs, and whether anybody works on them now."""
+    """Return the verbs of jobs, and whether anybody works on them now.
+
+    Where a service runs it is asked, by the token in ``FOLDMILL_TOKEN`` if it wants one; ``more``
+    plotters are its own matter then.
+    """
     from foldmill_fabricate.jobs import Desk, Places, plotters
 
     places = Places()
+    service = _service(places)
+    if service is not None:
+        if more:
+            raise FoldmillError("A service runs: name its plotters where it is started.")
+        return service, True
     return Desk(places, plotters.read(more=more)), is_worked_on(places)
+
+
+def _service(places: Places) -> Jobs | None:
+    """Return the service that runs on this folder, or that FOLDMILL_SERVICE names."""
+    url = os.environ.get(SERVICE, "")
+    if not url and not places.service.exists():
+        return None
+    try:
+        from foldmill_fabricate.client import Client
+        from foldmill_fabricate.service.reach import reached
+    except ImportError:
+        raise FoldmillError(MISSING) from None
+    found = url or reached(places)
+    return Client(found, os.environ.get(TOKEN, "")) if found else None
 
 
 def is_worked_on(places: Places) -> bool:

@@ -16,12 +16,15 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from foldmill.errors import FoldmillError, InvalidInput
+from foldmill.files import fence_process
 from foldmill.refusals import explain
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.errors import Leave
 from foldmill_fabricate.jobs.values import Order
 
 Size = tuple[float, float]
+_MOST_MEMORY, _MOST_SECONDS = 4 << 30, 3600
+"""bytes, and s of a processor, that an order may take."""
 _LOOK = 0.2
 """s between two looks at a process."""
 
@@ -103,7 +106,11 @@ def _judge(told: bytes, code: int) -> None:
     try:
         refused = json.loads(told)["refused"]
     except ValueError:
-        raise CannotPlan(f"Planning ended without a result (code {code}).") from None
+        raise CannotPlan(
+            f"Planning took more than {_MOST_SECONDS / 3600:g} h of a processor, or was stopped "
+            f"from outside (code {code}). Make the design simpler, or plan it by hand and submit "
+            "the folder."
+        ) from None
     if refused:
         raise CannotPlan(refused)
 
@@ -112,12 +119,28 @@ def main(folder: str) -> None:
     """Carry out the order on standard input and say on standard output how that ended."""
     if hasattr(os, "nice"):
         os.nice(10)
+    _limit()
+    fence_process(None)  # an order comes from elsewhere: it names no file of this computer
     refused = ""
     try:
         carry_out(Order.model_validate_json(sys.stdin.read()), Path(folder))
     except FoldmillError as error:
         refused = str(error)
+    except MemoryError:
+        refused = (
+            f"Planning this needs more than {_MOST_MEMORY >> 30} GB of memory; make it simpler."
+        )
     sys.stdout.write(json.dumps({"refused": refused}))
+
+
+def _limit() -> None:
+    """Let this process end rather than the computer, where an order asks for too much."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_DATA, (_MOST_MEMORY, _MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (_MOST_SECONDS, _MOST_SECONDS))
 
 
 if __name__ == "__main__":
