@@ -89,7 +89,7 @@ def work_here(more: Sequence[str], host_name: str, tell: Callable[[str], None]) 
         for number in (signal.SIGINT, signal.SIGTERM)
     }
     host = Host(Places(), known, host_name)
-    heard = max((event.number for event in host.store.events(limit=10**9)), default=0)
+    heard = host.store.last_event()
     host.start()
     tell(f"At work on {', '.join(sorted(known))}; Ctrl-C ends it.")
     try:

@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, func, insert, select, update
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
 from foldmill_fabricate.jobs import asking, rows
@@ -18,7 +18,7 @@ from foldmill_fabricate.jobs.values import Event, JobRecord, Question, Reply, Su
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
-from foldmill_fabricate.plotter.ledger.tables import connect
+from foldmill_fabricate.plotter.ledger.tables import connect, reading
 from foldmill_fabricate.plotter.ledger.writing import stamp
 
 PAUSE, CANCEL = "pause", "cancel"
@@ -74,7 +74,7 @@ class JobStore:
         return self.job(name)
 
     def _by_key(self, key: str) -> Any:
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return at.execute(select(JOBS).where(JOBS.c.key == key)).first()
 
     def planned(self, name: str, plan: str, about: rows.About) -> JobRecord:
@@ -95,12 +95,12 @@ class JobStore:
 
     def job(self, name: str) -> JobRecord:
         """Return a job; raises NoSuchJob."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return rows.record(at, rows.job_row(at, name))
 
     def order(self, name: str) -> str:
         """Return the order of a design as JSON; empty for a job of a plan."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return str(rows.job_row(at, name).order)
 
     def jobs(
@@ -112,7 +112,7 @@ class JobStore:
             wanted = wanted.where(JOBS.c.state.in_([state.value for state in states]))
         if plotter:
             wanted = wanted.where(JOBS.c.plotter == plotter)
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return [rows.record(at, row) for row in at.execute(wanted).all()]
 
     def due(self) -> dict[str, int]:
@@ -120,7 +120,7 @@ class JobStore:
         wanted = select(JOBS.c.plotter, JOBS.c.state, JOBS.c.begun)
         waiting = {state.value for state in (JobState.SUBMITTED, *ACTIVE)}
         found: dict[str, int] = {}
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             for row in at.execute(wanted.where(JOBS.c.state.in_(waiting))):
                 if row.begun or row.state == JobState.SUBMITTED.value:
                     found[row.plotter] = found.get(row.plotter, 0) + 1
@@ -131,8 +131,13 @@ class JobStore:
         wanted = select(EVENTS).where(EVENTS.c.number > after).order_by(EVENTS.c.number)
         if job:
             wanted = wanted.where(EVENTS.c.job == job)
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return [rows.event(row) for row in at.execute(wanted.limit(limit)).all()]
+
+    def last_event(self) -> int:
+        """Return the number of the newest event; 0 for none."""
+        with reading(self._engine) as at:
+            return int(at.execute(select(func.max(EVENTS.c.number))).scalar() or 0)
 
     # ── what a person wants ──────────────────────────────────────────────────────────────────────
 
@@ -230,7 +235,7 @@ class JobStore:
 
     def wish(self, name: str) -> str:
         """Return what a person wants of a job: pause, cancel, or nothing."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return str(at.execute(select(JOBS.c.wish).where(JOBS.c.id == name)).scalar_one())
 
     # ── questions ────────────────────────────────────────────────────────────────────────────────
@@ -249,12 +254,12 @@ class JobStore:
 
     def questions(self, job: str = "") -> list[Question]:
         """Return what a person is asked now, of one job or of all."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return asking.open_ones(at, job)
 
     def question(self, name: str) -> Question:
         """Return a question that waits for its answer; raises NoSuchJob, Clash once it has it."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return asking.find(at, name)
 
     def answer(self, name: str, reply: Reply, who: str = "") -> None:
@@ -268,7 +273,7 @@ class JobStore:
 
     def reply(self, name: str) -> tuple[Reply, str] | None:
         """Return the answer to a question and who gave it; None while there is none."""
-        with self._engine.begin() as at:
+        with reading(self._engine) as at:
             return asking.reply(at, name)
 
     # ── parts of a transaction ───────────────────────────────────────────────────────────────────

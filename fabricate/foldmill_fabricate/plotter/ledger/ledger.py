@@ -22,6 +22,7 @@ from foldmill_fabricate.plotter.ledger.reading import (
 )
 from foldmill_fabricate.plotter.ledger.run import Run
 from foldmill_fabricate.plotter.ledger.tables import AUDIT, PROGRAMS, RUNS, SHEETS, connect
+from foldmill_fabricate.plotter.ledger.tables import reading as reading_of
 from foldmill_fabricate.plotter.ledger.values import (
     Answered,
     Program,
@@ -115,7 +116,7 @@ class Ledger:
 
     def sheet(self, name: str) -> SheetRecord:
         """Return a sheet; raises LedgerRefused where there is none of that id."""
-        with self._engine.begin() as at:
+        with reading_of(self._engine) as at:
             row = at.execute(select(SHEETS).where(SHEETS.c.id == name.upper())).first()
             if row is None:
                 raise LedgerRefused(f"The ledger knows no sheet {name!r}; look at its id again.")
@@ -126,7 +127,7 @@ class Ledger:
         wanted = select(SHEETS).order_by(SHEETS.c.number.desc())
         if job is not None:
             wanted = wanted.where(SHEETS.c.job == job)
-        with self._engine.begin() as at:
+        with reading_of(self._engine) as at:
             sheets = [sheet_record(at, row) for row in at.execute(wanted).all()]
         return [sheet for sheet in sheets if sheet.is_open and sheet.is_begun]
 
@@ -137,7 +138,7 @@ class Ledger:
     def history(self, sheet: str) -> list[tuple[str, str, str]]:
         """Return what happened to a sheet: (when, who, what), the oldest first."""
         wanted = select(AUDIT.c.when, AUDIT.c.who, AUDIT.c.what).where(AUDIT.c.sheet == sheet)
-        with self._engine.begin() as at:
+        with reading_of(self._engine) as at:
             return [(row[0], row[1], row[2]) for row in at.execute(wanted.order_by(AUDIT.c.id))]
 
     def answer(
@@ -149,7 +150,7 @@ class Ledger:
 
     def answers(self, sheet: str) -> list[Answered]:
         """Return what was done and measured at the gates of a sheet, the oldest first."""
-        with self._engine.begin() as at:
+        with reading_of(self._engine) as at:
             return reading.answers(at, sheet)
 
     def claim(self, sheet: str, number: int, device: str) -> Run:

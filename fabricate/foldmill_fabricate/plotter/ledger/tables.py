@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import (
     Column,
+    Connection,
     Engine,
     Float,
     ForeignKey,
@@ -20,6 +22,8 @@ from sqlalchemy import (
 )
 
 METADATA = MetaData()
+_READS = "foldmill_reads"
+"""Execution option of a transaction that writes nothing."""
 
 SHEETS = Table(
     "sheets",
@@ -105,4 +109,10 @@ def _safe(connection: Any, _record: Any) -> None:
 
 def _immediate(connection: Any) -> None:
     """Lock when a transaction begins, not when it first writes: what it has read stays true."""
-    connection.exec_driver_sql("BEGIN IMMEDIATE")
+    only_reads = connection.get_execution_options().get(_READS, False)
+    connection.exec_driver_sql("BEGIN" if only_reads else "BEGIN IMMEDIATE")
+
+
+def reading(engine: Engine) -> AbstractContextManager[Connection]:
+    """Begin a transaction that only reads: it sees one moment, and keeps no writer waiting."""
+    return engine.execution_options(**{_READS: True}).begin()
