@@ -41,11 +41,15 @@ def page_sizes(pdf: bytes, folder: Path) -> list[tuple[float, float]]:
     return [(float(width) / MM, float(height) / MM) for width, height in found]
 
 
-def text(pdf: bytes, folder: Path, page: int | None = None) -> str:
-    """Return the words of a page, or of all, spaces and line ends as one space."""
-    pages = [] if page is None else ["-f", str(page), "-l", str(page)]
-    said = run(["pdftotext", "-layout", *pages, "x.pdf", "-"], pdf, folder)
-    return re.sub(r"\s+", " ", said)
+def pages(pdf: bytes, folder: Path) -> list[str]:
+    """Return the words of each page, spaces and line ends as one space."""
+    said = run(["pdftotext", "-layout", "x.pdf", "-"], pdf, folder)
+    return [re.sub(r"\s+", " ", page) for page in said.split("\f")[:-1]]
+
+
+def text(pdf: bytes, folder: Path) -> str:
+    """Return the words of all pages, spaces and line ends as one space."""
+    return " ".join(pages(pdf, folder))
 
 
 def lines(pdf: bytes, folder: Path, page: int = 1) -> list[tuple[str, Floats]]:
