@@ -16,6 +16,7 @@ from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.pictures import folded, lettered, pattern, sheet
 from foldmill_fabricate.pictures.folded import ABOVE
 from foldmill_fabricate.pictures.render import INSIDE, OUTSIDE, Ball, Camera, render
+from foldmill_fabricate.pictures.stages import cropped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,6 +31,8 @@ LARGE_VIEWS = 176.0
 """mm of a page that they take where there is so much room."""
 MANY_FACETS = 8000
 """Of a form: more are drawn from one side only, as each takes its time."""
+STAGES = 62.0
+"""mm: as high as pictures of a motion become."""
 PIXELS, LARGE_PIXELS = 320, 420
 """Of a picture of the form."""
 SIGNS = (
@@ -37,8 +40,10 @@ SIGNS = (
     (Assignment.V, "valley: a trough, its sides bend towards you"),
 )
 ANGLES = "A fold of 0° is flat, 90° a right angle; at 180° the sheet lies on itself."
-STOPS = (0.0, 5.5, 22.0, 36.0, 48.0, 60.0, 72.0)
-"""mm. Columns of the table of creases, which stands beside the enlarged part."""
+STOPS = (0.0, 5.5, 22.0, 36.0, 50.0, 61.0, 72.0)
+"""mm. Columns of the table of creases, which stands beside the whole pattern."""
+WIDE_STOPS = (0.0, 5.5, 22.0, 43.0, 57.0, 68.0, 79.0)
+"""mm. The same where angles differ within a kind."""
 BESIDE = 112.0
 """mm. Where that table begins."""
 
@@ -118,7 +123,8 @@ def _draw_whole(axes: Axes, fold: Fold, how: Arrangement) -> None:
 def _add_table(page: Paper, fold: Fold, how: Arrangement, moving: Closing | None) -> None:
     at = BESIDE - LEFT
     head, *rows = order.crease_table(how, moving, fold)
-    stops = [at + stop for stop in STOPS[: len(head)]]
+    differ = any(group.spread > order.ALIKE for group in how.groups)
+    stops = [at + stop for stop in (WIDE_STOPS if differ else STOPS)[: len(head)]]
     page.line("Kinds of creases", 11, at, weight="bold")
     if not rows:
         page.line("There are none.", 9, at)
@@ -129,7 +135,7 @@ def _add_table(page: Paper, fold: Fold, how: Arrangement, moving: Closing | None
         page.row(row, stops, 8)
     if moving is not None and moving.opens_flat:
         page.line("at …%: the angle that far on the way from the flat sheet to the form", 7, at)
-    if any(group.spread > order.ALIKE for group in how.groups):
+    if differ:
         page.line("±: angles differ within a letter. Each one's own is in pattern.fold.", 7, at)
 
 
@@ -193,9 +199,12 @@ def _add_stages(page: Paper, fold: Fold, moving: Closing | None) -> None:
     said = "On the way from the flat sheet" if moving.opens_flat else f"How it moves: {title}"
     page.line(said, 10)
     every = [stage.folded.vertices for _, stage in stages if stage.folded is not None]
-    view, wide = Ball.around(np.vstack(every)), (RIGHT - LEFT) / 4
-    for k, (name, stage) in enumerate(stages):
-        axes = page.window(LEFT + 4 + k * (wide + 10), page.y - wide, wide, wide - 3)
-        axes.imshow(render(stage, ABOVE, PIXELS, view), interpolation="none")
+    view, wide = Ball.around(np.vstack(every)), (RIGHT - LEFT) / len(stages)
+    images = cropped([render(stage, ABOVE, PIXELS, view) for _, stage in stages])
+    high, across = images[0].shape[:2]
+    tall = min(STAGES, (wide - 4) * high / across)
+    for k, ((name, _), image) in enumerate(zip(stages, images, strict=True)):
+        axes = page.window(LEFT + 2 + k * wide, page.y - tall - 4, wide - 4, tall)
+        axes.imshow(image, interpolation="none")
         axes.set_title(name, fontsize=8.5)
-    page.y -= wide + 2
+    page.y -= tall + 6

@@ -22,10 +22,12 @@ BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
 def write(plan: Plan, fold: Fold) -> bytes:
     """Return the job sheet of a plan as PDF: pages of A4 at true scale."""
     with canvas.own_style():
-        return _to_pdf([_machine_page(plan, fold.pattern), *_other_pages(plan, fold)])
+        return _to_pdf(pages(plan, fold))
 
 
-def _other_pages(plan: Plan, fold: Fold) -> Iterator[Paper]:
+def pages(plan: Plan, fold: Fold) -> Iterator[Paper]:
+    """Yield the pages: for the machine, then for whoever reads a coupon or folds the part."""
+    yield _machine_page(plan, fold.pattern)
     if plan.coupon is None:
         yield from folding.pages(plan, fold, _stamp(plan))
         return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import subprocess
 import sys
 from io import BytesIO
@@ -22,7 +23,7 @@ from foldmill_fabricate import hooks
 from foldmill_fabricate.errors import CannotWrite
 from foldmill_fabricate.formats import pdf, svg
 from foldmill_fabricate.passes import Face, Plan
-from foldmill_fabricate.profiles import Style, find
+from foldmill_fabricate.profiles import Layers, Style, find
 from foldmill_fabricate.sheet import flipped
 
 if TYPE_CHECKING:
@@ -200,3 +201,10 @@ def test_bytes_are_the_same_in_another_process() -> None:
     said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert said.stdout.strip() == here
     assert b"Date" not in PDF["front.pdf"]
+
+
+def test_the_page_about_paper_names_the_steps_that_are_written() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "paper.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| (\w+) \| (\w+) \|$", page, re.MULTILINE)
+    assert dict(table) == {"lines": "type", **pdf.STEPS}
+    assert set(pdf.STEPS) | {"note", "anchor"} == set(Layers.model_fields)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import hand_made
 import numpy as np
@@ -16,8 +17,12 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate import jobsheet
 from foldmill_fabricate.jobsheet import part
 from foldmill_fabricate.jobsheet.creases import arrange
+from foldmill_fabricate.jobsheet.write import pages
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.pictures.pattern import PRINTED
+
+if TYPE_CHECKING:
+    from conftest import Golden
 
 PLAN = hand_made.plan()
 
@@ -48,6 +53,22 @@ def test_every_kind_of_crease_is_on_paper_with_its_angle(name: str, tmp_path: Pa
     for group in arrange(fold.pattern).groups:
         kind = "mountain" if group.assignment == Assignment.M else "valley"
         assert f"{group.letter} {kind} {group.angle:.1f}° × {len(group.edges)}" in page
+
+
+@pytest.mark.parametrize("name", ["hand-made", "stool-n8"])
+def test_the_words_of_the_job_sheet_are_as_they_were(name: str, golden: Golden) -> None:
+    stool = name == "stool-n8"
+    plan = stools.stool_plan() if stool else PLAN
+    fold = SHEETS["stool"] if stool else hand_made.fold()
+    written_pages = list(pages(plan, fold))[2 if stool else 0 :]  # what is cut is others' affair
+    rows = [
+        f"{text.get_text()}\n"
+        for page in written_pages
+        for axes in page.figure.axes
+        for text in (*axes.texts, axes.title)
+        if text.get_text()
+    ]
+    golden.check(f"{name}/job-sheet.txt", "".join(rows).encode())
 
 
 @pytest.mark.parametrize(
