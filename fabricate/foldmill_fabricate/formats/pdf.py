@@ -8,8 +8,9 @@ from functools import partial
 from foldmill import Fold
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.formats import pdf_tiles
-from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes, words
+from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes
 from foldmill_fabricate.formats.pdf_legend import layer_rows, legend
+from foldmill_fabricate.formats.pdf_letters import fitted
 from foldmill_fabricate.formats.tiles import PAPERS, Paper, tiling
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.profiles import Profile, Style, find
@@ -78,7 +79,8 @@ def drawn(book: Book, plan: Plan, view: d.Drawing) -> Iterator[str]:
         yield book.layer(group.layer, step(plan, group.key), strokes(group.lines))
     corners = strokes(d.anchors(view.width, view.height))
     yield book.layer(view.layers.anchor, LEGEND, corners)
-    yield book.layer(view.layers.note, LEGEND, words(view.note, *d.NOTE_AT, d.NOTE_HEIGHT))
+    capitals = fitted(view.note, d.NOTE_HEIGHT, view.width - 2 * d.NOTE_AT[0])
+    yield book.layer(view.layers.note, LEGEND, book.words(view.note, *d.NOTE_AT, capitals))
 
 
 def step(plan: Plan, key: str) -> str:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from foldmill_fabricate.errors import CannotWrite
 from foldmill_fabricate.formats.drawing import Floats, is_closed
+from foldmill_fabricate.formats.pdf_letters import CAPITALS, Letters
 from foldmill_fabricate.formats.svg import number
 from foldmill_fabricate.profiles import Layer
 
@@ -28,8 +29,6 @@ WIDTH = 0.25
 """mm. Thin, so that software takes a line as a path and not as an area."""
 LEGEND = "Legend"
 """The group of what people read; it has no types."""
-CAPITALS = 0.718
-"""Height of Helvetica's capitals, in sizes of the letters."""
 
 
 class Book:
@@ -41,6 +40,7 @@ class Book:
         self.pdf = pikepdf.new()
         self.pdf.docinfo["/Title"] = title
         self.pdf.docinfo["/Creator"] = "foldmill"
+        self._letters = Letters()
         self._layers: dict[str, str] = {}
         self._spots: dict[str, str] = {}
         self._layers_made = pikepdf.Dictionary()
@@ -48,7 +48,6 @@ class Book:
         self._forms_made = pikepdf.Dictionary()
         self._resources = self.pdf.make_indirect(
             pikepdf.Dictionary(
-                Font=pikepdf.Dictionary(F=_font()),
                 ExtGState=pikepdf.Dictionary(G=_overprint()),
                 Properties=self._layers_made,
                 ColorSpace=self._spots_made,
@@ -74,7 +73,7 @@ class Book:
         import pikepdf
 
         name = f"D{len(self._forms_made)}"
-        stream = self.pdf.make_stream(content.encode("cp1252", "replace"))
+        stream = self.pdf.make_stream(content.encode("ascii"))
         stream.stream_dict.update(
             {"/Type": pikepdf.Name.XObject, "/Subtype": pikepdf.Name.Form}
             | {"/BBox": pikepdf.Array([0, 0, _real(width), _real(height)])}
@@ -82,6 +81,14 @@ class Book:
         )
         self._forms_made["/" + name] = stream
         return name
+
+    def words(self, text: str, x: float, y: float, capitals: float) -> str:
+        """Return operators that write a line of words, its baseline's left end at x, y mm.
+
+        capitals : their height, mm.
+        """
+        size, shown = number(capitals / CAPITALS), self._letters.encoded(text)
+        return f"BT /F {size} Tf {number(x)} {number(y)} Td {shown} Tj ET\n"
 
     def page(self, width: float, height: float, content: str) -> None:
         """Add a page of this size, mm, whose content is drawn in mm from its lower left corner.
@@ -102,7 +109,7 @@ class Book:
             MediaBox=box,
             TrimBox=box,
             Resources=self._resources,
-            Contents=self.pdf.make_stream(scaled.encode("cp1252", "replace")),
+            Contents=self.pdf.make_stream(scaled.encode("ascii")),
         )
         self.pdf.pages.append(pikepdf.Page(self.pdf.make_indirect(page)))
 
@@ -110,6 +117,8 @@ class Book:
         """Return the file: the same bytes for the same pages, without date and serial number."""
         import pikepdf
 
+        font = self.pdf.make_indirect(self._letters.font(self.pdf))
+        self._resources["/Font"] = pikepdf.Dictionary(F=font)
         groups = pikepdf.Array(list(self._layers_made.values()))
         self.pdf.Root.OCProperties = pikepdf.Dictionary(
             OCGs=groups, D=pikepdf.Dictionary(Order=groups, ON=groups)
@@ -158,34 +167,6 @@ def strokes(lines: Iterable[Floats]) -> str:
         parts.append(" m\n".join(pairs[:2]) + " l\n" + "".join(f"{p} l\n" for p in pairs[2:]))
         parts.append("s\n" if ends else "S\n")
     return "".join(parts)
-
-
-def words(text: str, x: float, y: float, capitals: float, angle: int = 0) -> str:
-    """Return operators that write a line of words, its baseline's left end at x, y mm.
-
-    capitals : their height, mm; angle : 0, or 90 for words that run upward.
-    """
-    plain = text.encode("cp1252", "replace").decode("cp1252")
-    escaped = plain.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
-    turn = "0 1 -1 0" if angle else "1 0 0 1"
-    size = number(capitals / CAPITALS)
-    return f"BT /F {size} Tf {turn} {number(x)} {number(y)} Tm ({escaped}) Tj ET\n"
-
-
-def width_of(text: str, capitals: float) -> float:
-    """Return about how wide words are, mm: Helvetica's letters are half as wide as high."""
-    return 0.55 * len(text) * capitals / CAPITALS
-
-
-def _font() -> Dictionary:
-    from pikepdf import Dictionary, Name
-
-    return Dictionary(
-        Type=Name.Font,
-        Subtype=Name.Type1,
-        BaseFont=Name.Helvetica,
-        Encoding=Name.WinAnsiEncoding,
-    )
 
 
 def _overprint() -> Dictionary:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from foldmill_fabricate.formats import drawing as d
-from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes, words
+from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes
+from foldmill_fabricate.formats.pdf_letters import fitted
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.profiles import Profile
 from foldmill_fabricate.profiles import legend as legend_rows
@@ -27,8 +28,9 @@ def legend(plan: Plan, profile: Profile, master: d.Drawing) -> bytes:
     book = Book(f"{plan.title}: layers")
     top = PAGE[1] - 25
     head = f"{plan.title}: what the layers of its PDF drawings are (profile {profile.slug})"
+    capitals = fitted(head, 3.0, PAGE[0] - 2 * _COLUMNS[0])
     rows = "".join(layer_rows(book, profile, master, top - 2 * ROW))
-    book.page(*PAGE, f"0 g\n{words(head, _COLUMNS[0], top, 3.0)}{rows}")
+    book.page(*PAGE, f"0 g\n{book.words(head, _COLUMNS[0], top, capitals)}{rows}")
     return book.to_bytes()
 
 
@@ -41,4 +43,4 @@ def layer_rows(book: Book, profile: Profile, view: d.Drawing, top: float) -> Ite
         line = np.array([(_COLUMNS[0], y + 1), (_COLUMNS[1] - 4, y + 1)])
         yield book.layer(look, LEGEND, "0.8 w\n" + strokes([line]))
         said = zip(_COLUMNS[1:], (look.name, look.colour, about), strict=True)
-        yield "0 g\n" + "".join(words(text, x, y, CAPITALS) for x, text in said)
+        yield "0 g\n" + "".join(book.words(text, x, y, CAPITALS) for x, text in said)

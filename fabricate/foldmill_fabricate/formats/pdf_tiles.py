@@ -9,7 +9,8 @@ import numpy as np
 
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.formats import tiles as t
-from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes, width_of, words
+from foldmill_fabricate.formats.pdf_book import LEGEND, Book, strokes
+from foldmill_fabricate.formats.pdf_letters import fitted, width_of
 from foldmill_fabricate.formats.svg import number
 from foldmill_fabricate.profiles import Layer
 
@@ -57,27 +58,29 @@ def _tile(book: Book, view: d.Drawing, laid: t.Tiling, tile: t.Tile, drawing: st
     marks = "".join(
         [
             strokes([frame]),
-            words(tile.name, left + _BESIDE, t.MARGIN + 7.5, SMALL),
-            *_wrapped(view.note, left + _BESIDE, t.MARGIN + 4, 1.6, room),
-            check_bar(left, t.MARGIN + 1),
-            *_names(laid, tile),
+            book.words(tile.name, left + _BESIDE, t.MARGIN + 7.5, SMALL),
+            *_wrapped(book, view.note, left + _BESIDE, t.MARGIN + 4, 1.6, room),
+            check_bar(book, left, t.MARGIN + 1),
+            *_names(book, laid, tile),
         ]
     )
     return sheet + book.layer(MARKS, LEGEND, marks)
 
 
-def _wrapped(text: str, x: float, y: float, capitals: float, room: float) -> Iterator[str]:
+def _wrapped(
+    book: Book, text: str, x: float, y: float, capitals: float, room: float
+) -> Iterator[str]:
     """Yield words in lines of at most ``room`` mm, the first one's baseline at y."""
-    most = int(room / width_of("m", capitals))
+    most = int(room / width_of("n", capitals))
     for k, line in enumerate(wrap(text, most)[:2]):
-        yield words(line, x, y - 1.8 * capitals * k, capitals)
+        yield book.words(line, x, y - 1.8 * capitals * k, capitals)
 
 
-def _names(laid: t.Tiling, tile: t.Tile) -> Iterator[str]:
+def _names(book: Book, laid: t.Tiling, tile: t.Tile) -> Iterator[str]:
     """Yield this tile's name, large, and its neighbours' at the edges they join."""
     wide, high = laid.window
     left, low = t.MARGIN, t.MARGIN + t.FOOT
-    yield words(tile.name, left + 2, low + high - 6, LARGE)
+    yield book.words(tile.name, left + 2, low + high - 6, LARGE)
     for across, down in ((-1, 0), (1, 0), (0, -1), (0, 1)):
         name = laid.neighbour(tile, across, down)
         if not name:
@@ -85,7 +88,7 @@ def _names(laid: t.Tiling, tile: t.Tile) -> Iterator[str]:
         room = width_of(name, SMALL)
         x = left + (0.5 * wide if down else (wide - room - 1 if across > 0 else 1))
         y = low + (0.5 * high if across else (1 if down > 0 else high - SMALL - 1))
-        yield words(name, x, y, SMALL)
+        yield book.words(name, x, y, SMALL)
 
 
 def _map(book: Book, view: d.Drawing, laid: t.Tiling, drawing: str) -> str:
@@ -97,24 +100,27 @@ def _map(book: Book, view: d.Drawing, laid: t.Tiling, drawing: str) -> str:
     left, low = 15.0 - scale * laid.xs[0], LEGEND_TOP + 8 - scale * laid.ys[-1]
     placed = f"{scale:.6f} 0 0 {scale:.6f} {number(left)} {number(low)} cm"
     sheet = f"q\n{placed}\n/{drawing} Do\nQ\n"
-    marks = [words(f"{view.note}: {len(laid.tiles)} pages", 15, page[1] - 15, 3.0)]
-    marks += [words(text, 15, page[1] - 21 - 4.5 * k, SMALL) for k, text in enumerate(ADVICE)]
-    marks.append(check_bar(15, 12))
+    head = f"{view.note}: {len(laid.tiles)} pages"
+    marks = [book.words(head, 15, page[1] - 15, fitted(head, 3.0, page[0] - 30))]
+    marks += [book.words(text, 15, page[1] - 21 - 4.5 * k, SMALL) for k, text in enumerate(ADVICE)]
+    marks.append(check_bar(book, 15, 12))
     for tile in laid.tiles:
         x, y = left + scale * tile.x, low + scale * tile.y
         wide, high = (scale * side for side in laid.window)
         marks.append(strokes([_frame(x, y, wide, high)]))
-        marks.append(words(tile.name, x + 2, y + high - 6, LARGE))
+        marks.append(book.words(tile.name, x + 2, y + high - 6, LARGE))
     return sheet + book.layer(MARKS, LEGEND, "".join(marks))
 
 
-def check_bar(x: float, y: float) -> str:
+def check_bar(book: Book, x: float, y: float) -> str:
     """Return operators for 100 mm that measure 100 mm where the page is printed at its own size."""
     ticks = [
         np.array([(x + 10 * k, y), (x + 10 * k, y + (3.0 if k % 5 == 0 else 1.5))])
         for k in range(11)
     ]
-    return strokes([np.array([(x, y), (x + 100, y)]), *ticks]) + words("100 mm", x + 86, y + 4, 1.8)
+    return strokes([np.array([(x, y), (x + 100, y)]), *ticks]) + book.words(
+        "100 mm", x + 86, y + 4, 1.8
+    )
 
 
 def _cross(x: float, y: float) -> list[d.Floats]:

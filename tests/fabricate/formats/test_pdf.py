@@ -17,6 +17,7 @@ import pikepdf
 import poppler
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 
 from foldmill import installed
 from foldmill_fabricate import hooks
@@ -146,6 +147,28 @@ def test_a_sheet_longer_than_a_page_of_a_pdf_is_refused_with_what_to_do() -> Non
     sheet = PLAN.sheet.model_copy(update={"width": 6000.0})
     with pytest.raises(CannotWrite, match=r"5080 mm.*pdf-a3"):
         pdf.write(PLAN.model_copy(update={"sheet": sheet}), FOLD)
+
+
+def test_the_letters_are_in_the_file_and_fit_the_sheet(tmp_path: Path) -> None:
+    fonts = poppler.run(["pdffonts", "x.pdf"], PDF["reverse.pdf"], tmp_path).splitlines()[2:]
+    assert len(fonts) == 1
+    assert re.search(r"Type 3 +Custom +yes", fonts[0])
+    boxes = poppler.run(["pdftotext", "-bbox", "x.pdf", "-"], PDF["reverse.pdf"], tmp_path)
+    ends = [float(x) for x in re.findall(r'xMax="([\d.]+)"', boxes)]
+    assert 30 * poppler.MM < max(ends) < 100 * poppler.MM
+
+
+def test_a_capital_is_as_high_as_the_note_says(tmp_path: Path) -> None:
+    wide = PLAN.model_copy(update={"title": "H"})
+    content = pdf.write(wide, FOLD)["front.pdf"]
+    command = ["pdftocairo", "-png", "-singlefile", "-r", "508", "x.pdf", "x"]
+    poppler.run(command, content, tmp_path)
+    with Image.open(tmp_path / "x.png") as image:
+        dark = np.asarray(image.convert("L")) < 220
+    x, y = (round(20 * mm) for mm in (8.0, 80.0 - 2.0))  # 20 dots are a mm
+    letter = dark[y - 100 : y + 20, x : x + 56]
+    rows = np.flatnonzero(letter.any(axis=1))
+    assert np.ptp(rows) / 20 == pytest.approx(3.5, abs=0.15)
 
 
 def test_letters_that_the_font_does_not_have_do_no_harm(tmp_path: Path) -> None:
