@@ -28,6 +28,11 @@ _GROOVES = {
     "inside": "towards its groove, which closes",
     "either": "both ways",
 }
+_FRONT = {
+    "outside": "The front has the grooves of the mountains, the reverse those of the valleys.",
+    "inside": "The front has the grooves of the valleys, the reverse those of the mountains.",
+    "either": "Both faces look alike: before that, write an F on the front, which lay underneath.",
+}
 _FREED = {
     "through-cut": "Take the {part} out of {its} ties and cut them flush.",
     "score-and-snap": "Bend the waste back along the outline until it snaps off, side by side.",
@@ -82,7 +87,8 @@ def folding_steps(
     )
     one = plan.quantity == 1
     part, its = ("part", "its") if one else (f"{plan.quantity} parts", "their")
-    steps = [_FREED[plan.material.cut.kind].format(part=part, its=its), flex]
+    freed = _FREED[plan.material.cut.kind].format(part=part, its=its)
+    steps = [f"{freed} {_FRONT[plan.material.score.score_face]}", flex]
     steps += _closing_steps(how, closing)
     if seams:
         steps.append(

@@ -53,6 +53,20 @@ def test_folding_goes_from_the_middle_outward_and_closes_tucks_last() -> None:
     assert "not computed" in order.derived(HOW, None, STOOL)
 
 
+@pytest.mark.parametrize(
+    ("face", "said"),
+    [
+        ("outside", "front has the grooves of the mountains"),
+        ("inside", "front has the grooves of the valleys"),
+        ("either", "write an F on the front"),
+    ],
+)
+def test_a_folder_is_told_by_what_to_know_the_front(face: str, said: str) -> None:
+    score = PLAN.material.score.model_copy(update={"score_face": face})
+    other = PLAN.model_copy(update={"material": PLAN.material.model_copy(update={"score": score})})
+    assert said in order.folding_steps(other, HOW)[0]
+
+
 def test_only_a_form_with_tucks_is_told_of_tucks_and_one_with_a_seam_of_its_seam() -> None:
     bare = Arrangement("rings", HOW.name, HOW.groups[:3])
     assert not any("tucks" in step for step in order.folding_steps(PLAN, bare))
