@@ -93,6 +93,7 @@ def test_the_sheet_is_the_same_in_another_process() -> None:
         "The 16 creases that close to 180° are single scores for now",
         "Do both passes in one session: the sheet moves by 0.01 mm/°C over 100 mm",
         "100 mm: measure it",
+        "Hand-made strip, pattern 0123456789ab: page 4 of 4",
         "A mountain 108.2° × 16",
         "overfold where there is room, hold each fold",
     ],

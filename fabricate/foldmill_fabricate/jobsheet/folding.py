@@ -75,7 +75,7 @@ def _creases_page(
 ) -> Paper:
     page = Paper()
     page.title(f"Creases: {plan.title}", stamp)
-    page.line("Both drawings show the FRONT of the sheet. " + ANGLES, 8.5)
+    page.line("Both drawings show the FRONT. " + ANGLES, 8.5)
     page.y -= 1
     _add_signs(page)
     top = page.y - 2

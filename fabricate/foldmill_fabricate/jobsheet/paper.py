@@ -56,6 +56,10 @@ class Paper:
                 return
             self.line(f"•  {sentence}", size)
 
+    def foot(self, words: str) -> None:
+        """Add words at the page's foot: what it belongs to, should the pages part."""
+        self.axes.text(RIGHT, 6, words, fontsize=7, color="#606060", ha="right", va="baseline")
+
     def height_of(self, sentences: Sequence[str], size: float = 9) -> float:
         """Return how much room sentences take, mm."""
         rows = (len(textwrap.wrap(said, _letters(RIGHT - LEFT, size))) for said in sentences)

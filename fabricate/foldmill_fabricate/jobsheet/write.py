@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from io import BytesIO
 
 from foldmill import CreasePattern, Fold
@@ -22,7 +22,11 @@ BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
 def write(plan: Plan, fold: Fold) -> bytes:
     """Return the job sheet of a plan as PDF: pages of A4 at true scale."""
     with canvas.own_style():
-        return _to_pdf(pages(plan, fold))
+        made = list(pages(plan, fold))
+        for number, page in enumerate(made, start=1):
+            whole = f"{plan.title}, pattern {plan.pattern_sha256[:12]}"
+            page.foot(f"{whole}: page {number} of {len(made)}")
+        return _to_pdf(made)
 
 
 def pages(plan: Plan, fold: Fold) -> Iterator[Paper]:
@@ -40,13 +44,13 @@ def _stamp(plan: Plan) -> str:
     return "" if plan.material.tested and plan.machine.verified else "untested"
 
 
-def _to_pdf(pages: Iterable[Paper]) -> bytes:
+def _to_pdf(made: list[Paper]) -> bytes:
     from matplotlib.backends.backend_pdf import PdfPages
 
     out = BytesIO()
     silent = {"CreationDate": None, "Producer": None, "Creator": "foldmill"}
     with PdfPages(out, metadata=silent) as pdf:
-        for page in pages:
+        for page in made:
             pdf.savefig(page.figure, dpi=DPI)
     return out.getvalue()
 
