@@ -18,10 +18,12 @@ from foldmill.tolerances import CLOSED_DEG
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-MOST_GROUPS = 20
+MOST_GROUPS = 30
 """More than these fit no table; then creases that fold less alike are put together."""
 _GAPS = ((0.05, 0.001), (1.0, 0.01))
 """Degrees, and shares of the pattern's size, below which neighbours count as alike."""
+_NARROW = 0.03
+"""Share of the pattern's size: what is wider is no ring and no row."""
 _RANGES = (5.0, 10.0, 15.0, 20.0, 30.0, 60.0, 181.0)
 """Degrees: how wide the ranges of angles are where creases are not alike."""
 
@@ -31,7 +33,7 @@ class CreaseGroup:
     """Creases of one assignment that fold by about one angle at about one place."""
 
     letter: str
-    """A, B, C … in order of place, what folds onto itself last."""
+    """A, B … Z, AA … in order of place, what folds onto itself last."""
     assignment: Assignment
     angle: float
     """deg, unsigned, the mean."""
@@ -80,7 +82,8 @@ def arrange(pattern: CreasePattern) -> Arrangement:
         if len(sorted_ways[best]) <= MOST_GROUPS:
             kind, name, places = ways[best]
             found = _lettered(pattern, sorted_ways[best], places)
-            repeats = len(creases) >= 3 * len(found)
+            narrow = all(np.ptp(places[g.edges]) <= _NARROW * pattern.size for g in found)
+            repeats = narrow and len(creases) >= 3 * len(found)
             return Arrangement(kind if repeats else "none", name, found)
     return Arrangement("none", "from the middle", _in_ranges(pattern, creases, rings))
 
@@ -169,4 +172,5 @@ def _group(pattern: CreasePattern, edges: Indices, places: Floats, letter: str) 
 
 
 def _letter(k: int) -> str:
-    return chr(ord("A") + k)
+    """Return A, B … Z, AA, AB …"""
+    return ("A" if k >= 26 else "") + chr(ord("A") + k % 26)

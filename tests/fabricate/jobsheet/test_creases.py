@@ -28,6 +28,7 @@ def uneven() -> CreasePattern:
     ("family", "preset", "kind"),
     [
         ("tuck", "stool-n8", "rings"),
+        ("tuck", "basket-n10", "rings"),
         ("rotational", "lampshade-n12", "rings"),
         ("six-crease", "vase", "rows"),
     ],
@@ -59,6 +60,12 @@ def test_angles_that_are_all_another_are_told_in_ranges_that_hold_them_all() -> 
         angles = np.abs(pattern.fold_angles[group.edges])
         assert group.spread == pytest.approx(np.ptp(angles))
         assert np.abs(angles - group.angle).max() <= group.spread
+
+
+def test_creases_that_are_alike_all_over_the_sheet_lie_in_no_rings() -> None:
+    how = arrange(made("waterbomb", "egg-crate").pattern)
+    assert how.kind == "none"
+    assert len(how.groups) <= 6
 
 
 def test_a_sheet_without_creases_has_no_groups() -> None:
