@@ -6,8 +6,8 @@ A sheet with so many creases (default 5,000 and 50,000) is written in each forma
 runs, ours and the other by turns. Columns:
 
 ours        s
-other       s: a plain loop that writes the same bytes, compared; for DXF and SVG ezdxf and svgwrite
-            writing the same entities
+other       s: a plain loop that writes the same bytes, compared; for DXF, SVG and PDF ezdxf,
+            svgwrite and pikepdf writing the same entities
 ratio       ours / other
 growth      ours / ours of the first size, for each crease: 1 is linear
 """
@@ -18,7 +18,7 @@ import gc
 import json
 import sys
 from collections.abc import Callable, Mapping
-from io import StringIO
+from io import BytesIO, StringIO
 from statistics import median
 from time import perf_counter
 from typing import Any
@@ -28,7 +28,7 @@ import numpy as np
 from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate import shelf
-from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, svg
+from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, pdf, svg
 from foldmill_fabricate.formats import drawing as d
 from foldmill_fabricate.passes import (
     Face,
@@ -48,6 +48,7 @@ from foldmill_fabricate.profiles import Style, find
 Write = Callable[[], bytes]
 RUNS = 5
 SIDE, AT = 480.0, 50.0
+POINTS = 72 / 25.4
 MACHINES = {
     "hpgl": "generic-hpgl-600",
     "gp-gl": "silhouette-like",
@@ -55,6 +56,8 @@ MACHINES = {
     "cf2": "generic-hpgl-600",
     "dxf": "generic-hpgl-600",
     "svg": "generic-hpgl-600",
+    "pdf": "generic-hpgl-600",
+    "pdf-a4": "generic-hpgl-600",
 }
 
 
@@ -193,6 +196,20 @@ def svgwrite_alone(plan: Plan) -> bytes:
     return out.getvalue().encode()
 
 
+def pikepdf_alone(plan: Plan) -> bytes:
+    """Draw every line on a canvas of pikepdf's and let it write."""
+    from pikepdf.canvas import BLUE, Canvas
+
+    canvas = Canvas(page_size=(500 * POINTS, 500 * POINTS))
+    canvas.do.stroke_color(BLUE).line_width(0.7)
+    for stroke in strokes_of(plan):
+        (a, b), (u, v) = stroke.points
+        canvas.do.line(a * POINTS, b * POINTS, u * POINTS, v * POINTS)  # type: ignore[no-untyped-call]
+    out = BytesIO()
+    canvas.to_pdf().save(out)
+    return out.getvalue()
+
+
 def plain_fold(content: Mapping[str, Any]) -> bytes:
     """Write a FOLD file's content row by row: one place, edge or face, or twelve plain values."""
     parts = []
@@ -241,6 +258,16 @@ def pairs(fold: Fold) -> dict[str, tuple[Write, Write, bool]]:
         "svg": (
             lambda: svg.one(of["svg"], next(d.drawings(of["svg"]))),
             lambda: svgwrite_alone(of["svg"]),
+            False,
+        ),
+        "pdf": (
+            lambda: pdf.one(of["pdf"], next(d.drawings(of["pdf"]))),
+            lambda: pikepdf_alone(of["pdf"]),
+            False,
+        ),
+        "pdf-a4": (
+            lambda: pdf.tiled(of["pdf-a4"], next(d.drawings(of["pdf-a4"])), front.profile, "a4"),
+            lambda: pikepdf_alone(of["pdf-a4"]),
             False,
         ),
     }

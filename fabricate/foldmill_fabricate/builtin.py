@@ -7,7 +7,7 @@ from types import ModuleType
 
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
-from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, places, programs, svg
+from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, pdf, places, programs, svg
 from foldmill_fabricate.hooks import Format, Interpreter
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -43,6 +43,13 @@ def foldmill_formats() -> Iterable[Format]:
         Format("gp-gl", f"GP-GL {of_each}", gpgl.write, programs.layout, gpgl.program),
         Format("gcode", f"G-code {of_each}", gcode.write, programs.layout, gcode.program),
         Format("cf2", "CFF2 drawing of each face, for makers of dies", cf2.write, drawn=cf2.write),
+        Format("pdf", "PDF drawing of each face and of both", pdf.write, drawn=pdf.write),
+        *(
+            Format(
+                f"pdf-{paper}", f"PDF drawings over pages of {paper.upper()}", tiled, drawn=tiled
+            )
+            for paper, tiled in pdf.TILED.items()
+        ),
         Format("places", "PNG with the places of what planning found", places.write),
     ]
 

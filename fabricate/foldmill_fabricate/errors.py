@@ -5,6 +5,7 @@
     FoldmillError
     ├── CannotPlan (ValueError)      the fold, the material and the machine do not go together
     │   └── DoesNotFit               too large for the blank, the carrier or the machine
+    ├── CannotWrite (ValueError)     a plan that a format cannot hold
     ├── CannotSend (RuntimeError)    a job folder that must not be sent to a plotter
     ├── CannotExplore (ValueError)   a sweep that is asked for in a way that means nothing
     └── EngineFailed (RuntimeError)  processes or a cluster that cannot do the work of a sweep
@@ -21,6 +22,10 @@ class CannotPlan(FoldmillError, ValueError):
 
 class DoesNotFit(CannotPlan):
     """A pattern, blank or carrier that is too large for what has to hold it."""
+
+
+class CannotWrite(FoldmillError, ValueError):
+    """A plan that a file format cannot hold."""
 
 
 class CannotSend(FoldmillError, RuntimeError):

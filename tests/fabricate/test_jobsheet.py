@@ -19,7 +19,7 @@ from foldmill import Assignment, CreasePattern
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate import jobsheet
 from foldmill_fabricate.jobsheet import flip_drawing, words
-from foldmill_fabricate.jobsheet.creases import MOST_GROUPS, groups
+from foldmill_fabricate.jobsheet.creases import groups
 from foldmill_fabricate.passes import Plan
 from foldmill_plugins.tuck import DESIGN
 
@@ -53,9 +53,9 @@ def said(pdf: bytes, folder: Path) -> str:
     return re.sub(r"\s+", " ", read.stdout)
 
 
-def test_the_sheet_has_two_pages_of_a4() -> None:
+def test_the_sheet_has_four_pages_of_a4() -> None:
     boxes = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", SHEET)
-    assert len(boxes) == 2
+    assert len(boxes) == 4
     for width, height in boxes:
         assert (float(width), float(height)) == pytest.approx((210 * MM, 297 * MM), abs=0.01)
 
@@ -72,8 +72,8 @@ def test_the_sheet_is_the_same_in_another_process() -> None:
         "from foldmill_fabricate import jobsheet\n"
         "print(hashlib.sha256(jobsheet.write(h.plan(), h.fold())).hexdigest())"
     )
-    folder = str(Path(hand_made.__file__).parent)
-    environment = {**os.environ, "PYTHONPATH": folder, "PYTHONHASHSEED": "5"}
+    paths = os.pathsep.join([str(Path(hand_made.__file__).parent), *sys.path])
+    environment = {**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": "5"}
     command = [sys.executable, "-W", "ignore", "-c", code]
     other = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     here = jobsheet.write(PLAN, hand_made.fold())
@@ -93,6 +93,7 @@ def test_the_sheet_is_the_same_in_another_process() -> None:
         "The 16 creases that close to 180° are single scores for now",
         "Do both passes in one session: the sheet moves by 0.01 mm/°C over 100 mm",
         "100 mm: measure it",
+        "Hand-made strip, pattern 0123456789ab: page 4 of 4",
         "A mountain 108.2° × 16",
         "overfold where there is room, hold each fold",
     ],
@@ -149,20 +150,6 @@ def test_every_crease_is_in_one_group_and_groups_fold_alike() -> None:
     assert [group.letter for group in found] == list("ABCDEFGHIJKLM")
 
 
-def test_folding_goes_from_the_middle_outward_and_closes_tucks_last() -> None:
-    found = groups(STOOL.pattern)
-    closed = [group.is_closed for group in found]
-    assert closed == sorted(closed)
-    assert sum(len(group.edges) for group in found if group.is_closed) == 16
-    distances = [group.distance for group in found if not group.is_closed]
-    assert distances == sorted(distances)
-    steps = words.folding_steps(PLAN, found)
-    assert "L, M" in next(step for step in steps if step.startswith("Close the tucks last"))
-    assert not any("tucks" in step for step in words.folding_steps(PLAN, found[:3]))
-    assert not any("seam" in step for step in steps)
-    assert any("Close the seam" in step for step in words.folding_steps(PLAN, found, seams=5))
-
-
 def test_a_turned_and_shifted_pattern_has_the_same_groups() -> None:
     pattern, turn = STOOL.pattern, np.array([[0.8, 0.6], [-0.6, 0.8]])
     moved = CreasePattern(
@@ -174,18 +161,6 @@ def test_a_turned_and_shifted_pattern_has_the_same_groups() -> None:
     )
     for one, two in zip(groups(pattern), groups(moved), strict=True):
         assert one.edges.tolist() == two.edges.tolist()
-
-
-def test_a_pattern_without_two_alike_creases_still_fits_the_table() -> None:
-    x = np.arange(60.0) * np.linspace(1, 2, 60)
-    flat = np.vstack([np.column_stack([x, 0 * x]), np.column_stack([x, 0 * x + 40])])
-    rim = [(k, k + 1) for k in range(59)] + [(60 + k, 61 + k) for k in range(59)]
-    edges = [*rim, (0, 60), (59, 119), *((k, 60 + k) for k in range(1, 59))]
-    angles = [0.0] * 120 + [(-1) ** k * (10 + 2.5 * k) for k in range(58)]
-    letters = "B" * 120 + "VM" * 29
-    found = groups(CreasePattern.from_lines(flat, edges, letters, angles))
-    assert 2 <= len(found) <= MOST_GROUPS
-    assert sum(len(group.edges) for group in found) == 58
 
 
 def test_what_planning_found_is_told_once_per_kind() -> None:

@@ -48,6 +48,8 @@ class Group:
     nothing is worked."""
     lines: tuple[Floats, ...]
     """Each (n, 2) mm; a closed line ends where it begins."""
+    key: str = ""
+    """What the layer is for: its field in ``Layers``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +109,7 @@ def _drawing(
             key = layer_of(operation.role, face, plan.material.score.kind)
             found.setdefault(key, []).extend((setup, stroke) for stroke in operation.strokes)
     groups = tuple(
-        Group(getattr(layers, key), found[key][0][0], _lines(plan, found[key], mirror=mirror))
+        Group(getattr(layers, key), found[key][0][0], _lines(plan, found[key], mirror=mirror), key)
         for key in Layers.model_fields
         if found.get(key)
     )

@@ -12,9 +12,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH, HEIGHT = 210.0, 297.0
-LEFT, RIGHT, TOP = 15.0, 195.0, 284.0
+LEFT, RIGHT, TOP, BOTTOM = 15.0, 195.0, 283.0, 12.0
 LINE = 1.45
 """Distance of baselines, in heights of the letters."""
+BOLD = 0.69
+"""Width of bold letters, in heights."""
 MM_PER_POINT = canvas.MM_PER_INCH / 72
 
 
@@ -35,6 +37,34 @@ class Paper:
             self.axes.text(LEFT + indent, self.y, part, fontsize=size, va="baseline", **look)  # type: ignore[arg-type]
             self.y -= size * MM_PER_POINT * LINE
 
+    def title(self, words: str, stamp: str = "") -> None:
+        """Add the page's title; stamp : what must not be overlooked, in a red frame beside it."""
+        if stamp:
+            frame = {"facecolor": "#ffe0e0", "edgecolor": "#c00000", "boxstyle": "round,pad=0.35"}
+            look = {"fontsize": 13, "weight": "bold", "color": "#c00000", "ha": "right"}
+            self.axes.text(RIGHT - 2, self.y - 1, stamp, bbox=frame, **look)  # type: ignore[arg-type]
+        room = RIGHT - LEFT - (32 if stamp else 0)
+        size = room / (BOLD * MM_PER_POINT * max(1, len(words)))
+        self.axes.text(LEFT, self.y, words, fontsize=min(16.0, size), va="baseline", weight="bold")
+        self.y -= 16 * MM_PER_POINT * LINE
+
+    def listed(self, sentences: Sequence[str], size: float, more: str) -> None:
+        """Add sentences as far as the page has room; then how many are left, and ``more``."""
+        for k, sentence in enumerate(sentences):
+            if self.y - self.height_of([sentence, "and more"], size) < BOTTOM:
+                self.line(f"•  {len(sentences) - k} {more}.", size)
+                return
+            self.line(f"•  {sentence}", size)
+
+    def foot(self, words: str) -> None:
+        """Add words at the page's foot: what it belongs to, should the pages part."""
+        self.axes.text(RIGHT, 6, words, fontsize=7, color="#606060", ha="right", va="baseline")
+
+    def height_of(self, sentences: Sequence[str], size: float = 9) -> float:
+        """Return how much room sentences take, mm."""
+        rows = (len(textwrap.wrap(said, _letters(RIGHT - LEFT, size))) for said in sentences)
+        return sum(rows) * size * MM_PER_POINT * LINE
+
     def heading(self, words: str) -> None:
         """Add a heading with air above it."""
         self.y -= 3.5
@@ -49,10 +79,10 @@ class Paper:
             self.axes.text(LEFT + stop, self.y, cell, fontsize=size, va="baseline", **look)  # type: ignore[arg-type]
         self.y -= size * MM_PER_POINT * LINE
 
-    def rule(self) -> None:
-        """Add a thin line under a table's head."""
+    def rule(self, indent: float = 0.0) -> None:
+        """Add a thin line under a table's head, ``indent`` mm from the margin."""
         height = self.y + 2.6
-        self.axes.plot([LEFT, RIGHT], [height, height], color="#808080", linewidth=0.5)
+        self.axes.plot([LEFT + indent, RIGHT], [height, height], color="#808080", linewidth=0.5)
         self.y -= 0.8
 
     def window(self, x: float, y: float, width: float, height: float) -> Axes:

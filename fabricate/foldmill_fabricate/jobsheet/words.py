@@ -5,11 +5,10 @@ from __future__ import annotations
 from itertools import combinations
 from math import dist
 
-from foldmill import Assignment, CreasePattern
+from foldmill import CreasePattern
 from foldmill.finding import Severity
 from foldmill.tolerances import CLOSED_DEG
 from foldmill_fabricate.formats.programs import layout
-from foldmill_fabricate.jobsheet.creases import CreaseGroup
 from foldmill_fabricate.passes import Face, Gate, Pass, Plan, SetUp
 from foldmill_fabricate.sheet import flipped, seen_by_machine
 
@@ -17,26 +16,9 @@ Row = tuple[str, ...]
 
 SETUP_HEAD: Row = ("", "face up", "process", "SP", "blade", "force", "speed", "repeats", "program")
 HOLE_HEAD: Row = ("hole", "on the front", "after the flip", "after the flip, on the machine")
-CREASE_HEAD: Row = ("", "fold", "angle", "creases", "from the middle")
 
 SAID_BY_WARNINGS = frozenset({"untested-material", "through-cut-marginal"})
 """Findings that ``warnings`` puts into the operator's words."""
-
-_GROOVES = {
-    "outside": "away from its groove, which opens",
-    "inside": "towards its groove, which closes",
-    "either": "both ways",
-}
-_FREED = {
-    "through-cut": "Take the {part} out of {its} ties and cut them flush.",
-    "score-and-snap": "Bend the waste back along the outline until it snaps off, side by side.",
-    "pen": "Cut the {part} out by hand along {its} drawn outline.",
-}
-_KINDS = {
-    Assignment.M: "mountain",
-    Assignment.V: "valley",
-    Assignment.U: "unassigned",
-}
 
 
 def summary(plan: Plan) -> str:
@@ -146,18 +128,6 @@ def _apart(one: object, two: object) -> float:
     return dist((one.x, one.y), (two.x, two.y))  # type: ignore[attr-defined]
 
 
-def crease_row(group: CreaseGroup) -> Row:
-    """Return one row of the table of fold angles."""
-    unknown = group.assignment is Assignment.U
-    return (
-        group.letter,
-        _KINDS[group.assignment],
-        "unknown" if unknown and not group.angle else f"{group.angle:.1f}°",
-        f"× {len(group.edges)}",
-        f"{group.distance:.0f} mm",
-    )
-
-
 def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
     """Return what must not be overlooked, most important first."""
     said = []
@@ -212,42 +182,4 @@ def temperature(plan: Plan) -> str:
     return (
         f"Do both passes in one session: the sheet moves by {drift:.2f} mm/°C over {span:g} mm. "
         f"Temperature: front {front} °C, reverse {reverse} °C."
-    )
-
-
-def folding_steps(plan: Plan, found: list[CreaseGroup], seams: int = 0) -> list[str]:
-    """Return the suggested order of folding, step by step; seams : vertices that are to meet."""
-    flex = (
-        f"Bend every scored crease 3 to 5 times, {_GROOVES[plan.material.score.score_face]}, along "
-        f"a straight edge: mountains with the front outside, valleys with the reverse outside."
-    )
-    one = plan.quantity == 1
-    part, its = ("part", "its") if one else (f"{plan.quantity} parts", "their")
-    steps = [_FREED[plan.material.cut.kind].format(part=part, its=its), flex]
-    standing = [group.letter for group in found if not group.is_closed]
-    closing = [group.letter for group in found if group.is_closed]
-    if standing:
-        steps.append(
-            f"Go from the middle outward, each group all the way round to half its angle before "
-            f"the next: {', '.join(standing)}. Then once more in the same order to the full angle."
-        )
-    if closing:
-        steps.append(f"Close the tucks last: {', '.join(closing)}. Press them flat.")
-    if seams:
-        steps.append(
-            "Close the seam: bring its two edges together, tabs on the inside where there are any, "
-            "and glue or tape it from one end to the other."
-        )
-    return [*steps, _springback(plan)]
-
-
-def _springback(plan: Plan) -> str:
-    material = plan.material
-    by = f" by {material.springback_min:g} to {material.springback_max:g}°"
-    cold = material.min_fold_temperature
-    warm = "" if cold is None else f" Do not fold below {cold:g} °C."
-    grain = " It folds more sharply along its grain than across it." if material.directional else ""
-    return (
-        f"The sheet springs back{by}: overfold where there is room, hold each fold for some "
-        f"seconds, and hold the finished form (clips, tape) until it stays.{warm}{grain}"
     )

@@ -1,52 +1,56 @@
-"""Both pages put together, and turned into a PDF with the same bytes for the same plan."""
+"""All pages put together, and turned into a PDF with the same bytes for the same plan."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from io import BytesIO
-from typing import TYPE_CHECKING
-
-import numpy as np
 
 from foldmill import CreasePattern, Fold
-from foldmill_fabricate.jobsheet import flip_drawing, register, words
+from foldmill_fabricate.jobsheet import flip_drawing, folding, register, words
 from foldmill_fabricate.jobsheet.coupon_page import coupon_page
-from foldmill_fabricate.jobsheet.creases import CreaseGroup, groups, middle, midpoints
-from foldmill_fabricate.jobsheet.paper import LEFT, RIGHT, Paper
+from foldmill_fabricate.jobsheet.paper import LEFT, Paper
 from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.pictures import canvas, pattern, sheet
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from foldmill_fabricate.pictures import canvas
 
 DPI = 300
 """Dots per inch of what is too much to be drawn line by line."""
 SETUP_STOPS = (0.0, 6.0, 24.0, 49.0, 58.0, 76.0, 94.0, 114.0, 130.0)
 HOLE_STOPS = (0.0, 15.0, 60.0, 105.0)
 BUDGET_STOPS = (0.0, 20.0, 46.0, 68.0, 93.0, 112.0, 131.0, 152.0)
-CREASE_STOPS = (0.0, 8.0, 32.0, 52.0, 70.0)
 
 
 def write(plan: Plan, fold: Fold) -> bytes:
-    """Return the job sheet of a plan as PDF, two A4 pages at true scale."""
+    """Return the job sheet of a plan as PDF: pages of A4 at true scale."""
     with canvas.own_style():
-        return _to_pdf([_machine_page(plan, fold.pattern), _second_page(plan, fold)])
+        made = list(pages(plan, fold))
+        for number, page in enumerate(made, start=1):
+            whole = f"{plan.title}, pattern {plan.pattern_sha256[:12]}"
+            page.foot(f"{whole}: page {number} of {len(made)}")
+        return _to_pdf(made)
 
 
-def _second_page(plan: Plan, fold: Fold) -> Paper:
+def pages(plan: Plan, fold: Fold) -> Iterator[Paper]:
+    """Yield the pages: for the machine, then for whoever reads a coupon or folds the part."""
+    yield _machine_page(plan, fold.pattern)
     if plan.coupon is None:
-        return _folding_page(plan, fold)
+        yield from folding.pages(plan, fold, _stamp(plan))
+        return
     page = coupon_page(plan, plan.coupon, words.findings(plan))
     _add_register(page, plan)
-    return page
+    yield page
 
 
-def _to_pdf(pages: list[Paper]) -> bytes:
+def _stamp(plan: Plan) -> str:
+    return "" if plan.material.tested and plan.machine.verified else "untested"
+
+
+def _to_pdf(made: list[Paper]) -> bytes:
     from matplotlib.backends.backend_pdf import PdfPages
 
     out = BytesIO()
     silent = {"CreationDate": None, "Producer": None, "Creator": "foldmill"}
     with PdfPages(out, metadata=silent) as pdf:
-        for page in pages:
+        for page in made:
             pdf.savefig(page.figure, dpi=DPI)
     return out.getvalue()
 
@@ -70,11 +74,7 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
 
 
 def _add_title(page: Paper, plan: Plan) -> None:
-    page.line(f"Job sheet: {plan.title}", 16, weight="bold")
-    if not (plan.material.tested and plan.machine.verified):
-        frame = {"facecolor": "#ffe0e0", "edgecolor": "#c00000", "boxstyle": "round,pad=0.35"}
-        look = {"fontsize": 13, "weight": "bold", "color": "#c00000", "ha": "right"}
-        page.axes.text(RIGHT - 2, 283, "untested", bbox=frame, **look)  # type: ignore[arg-type]
+    page.title(f"Job sheet: {plan.title}", _stamp(plan))
     page.line(words.summary(plan))
     for what, made in (("Material", plan.material), ("Machine", plan.machine)):
         page.line(f"{what}: {made.title}. {made.provenance}", 8)
@@ -125,47 +125,3 @@ def _add_budget(page: Paper, plan: Plan) -> None:
     page.row(names, BUDGET_STOPS, 8, color="#606060")
     page.row(errors, BUDGET_STOPS, 8)
     page.line(register.budget_words(plan.budget), 7.5)
-
-
-def _folding_page(plan: Plan, fold: Fold) -> Paper:
-    creases = fold.pattern
-    seams = 0 if fold.folded is None else len(fold.folded.seams)
-    page = Paper()
-    page.line(f"Folding: {plan.title}", 16, weight="bold")
-    found = groups(creases)
-    _draw_pattern(page.window(LEFT, 178, 98, 98), creases, found)
-    _draw_sheet(page, plan)
-    page.y = 168
-    page.heading("Fold angles by group, seen from the front")
-    page.row(words.CREASE_HEAD, CREASE_STOPS, 8, color="#606060")
-    page.rule()
-    for group in found:
-        page.row(words.crease_row(group), CREASE_STOPS)
-    page.heading("Suggested order of folding")
-    for number, step in enumerate(words.folding_steps(plan, found, seams), start=1):
-        page.line(f"{number}.  {step}")
-        page.y -= 0.5
-    if words.findings(plan):
-        page.heading("What planning found")
-    for finding in words.findings(plan):
-        page.line(f"•  {finding}", 8)
-    return page
-
-
-def _draw_sheet(page: Paper, plan: Plan) -> None:
-    axes = page.window(118, 196, 78, 80)
-    sheet.draw(axes, plan, letters=7)
-    axes.set_title("The sheet, seen from the front", fontsize=9)
-
-
-def _draw_pattern(axes: Axes, creases: CreasePattern, found: list[CreaseGroup]) -> None:
-    pattern.draw(axes, creases, legend=False)
-    axes.set_title("Mountains red, valleys blue; letters as in the table", fontsize=9)
-    frame = {"boxstyle": "circle,pad=0.12", "facecolor": "white", "edgecolor": "none"}
-    placed = middle(creases)[None, :]
-    for group in found:
-        spots = midpoints(creases, group.edges)
-        room = np.linalg.norm(spots[:, None] - placed, axis=2).min(axis=1)
-        x, y = best = spots[np.argmax(np.round(room, 6))]
-        placed = np.vstack([placed, best])
-        axes.text(x, y, group.letter, ha="center", va="center", fontsize=7.5, bbox=frame)

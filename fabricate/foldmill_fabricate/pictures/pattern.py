@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -21,7 +22,8 @@ class Look(NamedTuple):
     colour: str
     width: float
     """points"""
-    style: str = "-"
+    style: str | tuple[float, tuple[float, ...]] = "-"
+    """of matplotlib: a name, or where the dashes begin and their lengths in line widths"""
 
 
 LOOKS = {
@@ -33,6 +35,12 @@ LOOKS = {
     Assignment.B: Look("outline", "#000000", 1.6),
 }
 """In order of drawing: what matters most comes last, on top."""
+PRINTED = {
+    **LOOKS,
+    Assignment.V: Look("valley", "#1f4fd8", 1.1, (0, (3.2, 2.0))),
+    Assignment.M: Look("mountain", "#c01010", 1.3),
+}
+"""For paper, and copies of it in black and white: mountains are solid, valleys dashed."""
 
 
 def pattern_picture(fold: Fold) -> bytes:
@@ -46,17 +54,22 @@ def pattern_picture(fold: Fold) -> bytes:
 
 
 def draw(
-    axes: Axes, pattern: CreasePattern, *, legend: bool = True, thickness: float = 1.0
+    axes: Axes,
+    pattern: CreasePattern,
+    *,
+    legend: bool = True,
+    thickness: float = 1.0,
+    looks: Mapping[Assignment, Look] = LOOKS,
 ) -> None:
     """Draw a pattern into axes in its own mm; with legend and scale bar below, or bare.
 
-    thickness : of the lines, as a share of their usual one.
+    thickness : of the lines, as a share of their usual one. looks : how each kind is drawn.
 
     A slit is drawn once, as an inner cut.
     """
     pattern = sewn(pattern).pattern
     ends = pattern.vertices[pattern.edges]
-    for kind, look in LOOKS.items():
+    for kind, look in looks.items():
         chosen = pattern.assignments == kind
         if chosen.any():
             width = thickness * look.width

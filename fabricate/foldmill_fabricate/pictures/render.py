@@ -65,6 +65,52 @@ class Ball:
         return cls(middle, float(np.linalg.norm(points - middle, axis=1).max()))
 
 
+@dataclass(frozen=True, eq=False)
+class Spot:
+    """Where a point of the form is in its picture."""
+
+    at: Floats
+    """(2,) shares of the picture's side, from its lower left corner."""
+    seen: bool
+    """Whether no facet hides it."""
+
+
+def spots(fold: Fold, camera: Camera, points: Floats) -> list[Spot]:
+    """Return where points (k, 3) mm of the folded form are in the picture that ``render`` makes.
+
+    Raises InvalidInput where the fold has no folded form.
+    """
+    ball = Ball.around(form_of(fold).vertices)
+    facets, nearness = _projected(_spread(fold), camera, ball)
+    flat, near = _projected(points[:, None, :], camera, ball)
+    places = facets.reshape(-1, 2)
+    low, high = places.min(axis=0), places.max(axis=0)
+    shares = (flat[:, 0] - (low + high) / 2) * (0.96 / (high - low).max()) + 0.5
+    return [
+        Spot(share, not _hidden(spot, own, facets, nearness))
+        for share, spot, own in zip(shares, flat[:, 0], near[:, 0], strict=True)
+    ]
+
+
+def _projected(corners: Floats, camera: Camera, view: Ball) -> tuple[Floats, Floats]:
+    """Return places (..., 2) on a plane before the camera, and how near they are (...)."""
+    seen = (corners - view.middle) @ camera.axes().T
+    nearness = 1.0 / (camera.distance * view.reach - seen[..., 2])
+    return seen[..., :2] * nearness[..., None], nearness
+
+
+def _hidden(spot: Floats, own: float, facets: Floats, nearness: Floats) -> bool:
+    """Tell whether a facet (F, 3, 2) lies before a spot (2,); a facet it lies on does not."""
+    edges = np.roll(facets, -1, axis=1) - facets
+    off = spot - facets
+    turned = edges[:, :, 0] * off[:, :, 1] - edges[:, :, 1] * off[:, :, 0]
+    total = turned.sum(axis=1)
+    wide = np.abs(total) > 1e-12
+    share = np.roll(turned[wide], 2, axis=1) / total[wide, None]
+    here = (share * nearness[wide]).sum(axis=1)
+    return bool(((share >= 0).all(axis=1) & (here > own * (1 + 3 * LAYER_GAP))).any())
+
+
 def render(fold: Fold, camera: Camera, pixels: int, view: Ball | None = None) -> Floats:
     """Return an image (pixels, pixels, 3) in 0..1 of the folded form on white.
 
@@ -93,8 +139,7 @@ def render_triangles(
     """
     side = pixels * SAMPLES
     seen = (corners - view.middle) @ camera.axes().T
-    nearness = 1.0 / (camera.distance * view.reach - seen[:, :, 2])
-    flat = seen[:, :, :2] * nearness[:, :, None]
+    flat, nearness = _projected(corners, camera, view)
     screen = _fitted(flat, side) if is_fitted else _fixed(flat, camera, side)
     colours = _shade(seen, camera.distance * view.reach)
     image = _fill(screen, nearness, colours, inked, side)

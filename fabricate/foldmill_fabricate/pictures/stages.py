@@ -38,7 +38,7 @@ def stages_picture(fold: Fold, stages: Sequence[Stage]) -> bytes:
         for stage in stages
     ]
     images.append(render(fold, ABOVE, PIXELS, view))
-    images = _cropped(images)
+    images = cropped(images)
     names = [*(stage.name for stage in stages), f"form, {folded.size_text(fold)}"]
     parts = len(images) + 1
     with canvas.own_style():
@@ -57,7 +57,7 @@ def stages_picture(fold: Fold, stages: Sequence[Stage]) -> bytes:
         return _rounded(canvas.png(figure))
 
 
-def _cropped(images: list[Floats]) -> list[Floats]:
+def cropped(images: list[Floats]) -> list[Floats]:
     """Cut off, alike from all images, the rows and columns in which all of them are white."""
     is_white = np.stack(images).min(axis=(0, 3)) > WHITE
     rows, columns = (np.flatnonzero(~is_white.all(axis=axis)) for axis in (1, 0))
