@@ -20,7 +20,7 @@ FAST = {"travel_speed": 1000.0, "lift_time": 0.01}
 
 
 def assert_whole(trial: Trial) -> None:
-    assert trial.delivery.status is Status.EXECUTED
+    assert trial.delivery.status.is_done
     assert trial.traffic.overruns == 0
     assert trial.identical
     assert trial.traffic.split == 0

@@ -12,7 +12,8 @@ from math import ceil
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
-from foldmill_fabricate.plotter.handshakes.hp import MET, HpSession
+from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
+from foldmill_fabricate.plotter.handshakes.losses import lost
 from foldmill_fabricate.plotter.handshakes.proving import Proving
 from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.program import Job
@@ -104,10 +105,6 @@ class Asked(Proving):
         while self._asked is not None or self._bound < len(QUESTION) + self._kept:
             self._ask()
             self._wait()
-
-    def lost(self) -> str:
-        """Ask for the I/O error."""
-        return _lost(self.session.io_error())
 
     @property
     def _unclean(self) -> bool:
@@ -222,7 +219,7 @@ class Asked(Proving):
 
     def _judge(self, error: int) -> None:
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
-        told = _lost(0 if error == MET else error)
+        told = lost(0 if error == MET else error)
         if told:
             raise PlotterError(told)
         self._clean, self._cleaned = self._proved, self.session.clock.now()
@@ -231,7 +228,13 @@ class Asked(Proving):
         clock = self.session.clock
         if clock.now() < self._progress + PATIENCE + SLACK * self.ahead:
             return
-        if self.session.paused():
+        status = self.session.status()
+        if status & LEVER_UP:
+            raise PlotterError(
+                "The lever of the pinch wheels is up, and the sheet may have moved. Lower it, and "
+                "look at the sheet before anything is cut again."
+            )
+        if status & PAUSED:
             self._progress = clock.now()  # a person's doing; waiting costs nothing
             return
         raise NoAnswer(
@@ -249,12 +252,3 @@ class Asked(Proving):
         if length + self._reserve <= self._bound:
             nap = (self.sums.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
         self.session.rest_until(clock.now() + min(_LONGEST_NAP, nap))
-
-
-def _lost(error: int) -> str:
-    if not error:
-        return ""
-    return (
-        f"The machine reports that bytes were lost or garbled on the line (error {error}). Check "
-        "the cable and the baud rate."
-    )

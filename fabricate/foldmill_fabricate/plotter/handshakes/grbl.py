@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Callable
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
@@ -23,6 +24,8 @@ class GrblSession(Session):
     ends = b"\n"
     oks = 0
     """Lines answered ok so far."""
+    marks: deque[int]
+    """How many had been when each ``$G`` was answered."""
     state = ""
     """The last status: Idle, Run, Hold …; "" for none."""
     statuses = 0
@@ -36,6 +39,7 @@ class GrblSession(Session):
 
     def open(self) -> None:
         """Find it idle, have it drop half a line, and learn its buffer."""
+        self.marks = deque()
         super().open()
         if not self.status(_WELCOME):
             raise NoAnswer(
@@ -72,6 +76,8 @@ class GrblSession(Session):
         text = line.decode("ascii", "replace").strip()
         if text == "ok":
             self.oks += 1
+        elif text.startswith("[GC:"):
+            self.marks.append(self.oks)
         elif text.startswith("<"):
             self._read(text)
         elif text.startswith("[OPT"):
