@@ -92,3 +92,15 @@ def test_a_sender_that_ignores_the_free_space_overruns_the_buffer(machine: Make)
     assert trial.traffic.overruns > 1000
     assert trial.traffic.errors[16] == trial.traffic.overruns
     assert trial.traffic.fullest == 255
+
+
+def test_a_machine_with_a_large_buffer_is_asked_when_it_has_made_way_and_not_before(
+    machine: Make,
+) -> None:
+    rows = [b"PU%d,2000;PD%d,2300;" % (x, x) for x in range(2000, 10000, 40)]
+    program = b"IN;SP1;" + b"".join(rows) + b"PU;SP0;"
+    trial = stream(program, machine(buffer=65536))
+    assert_whole(trial)
+    asked = bytes(trial.traffic.received).count(b"\x1b.")
+    assert asked <= 1.5 * trial.delivery.instructions
+    assert trial.moving / trial.delivery.seconds > 0.995

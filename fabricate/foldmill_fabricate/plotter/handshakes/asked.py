@@ -12,7 +12,7 @@ from math import ceil
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
-from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
+from foldmill_fabricate.plotter.handshakes.hp import FREE, LEVER_UP, MET, PAUSED, HpSession
 from foldmill_fabricate.plotter.handshakes.losses import lost
 from foldmill_fabricate.plotter.handshakes.proving import Proving
 from foldmill_fabricate.plotter.languages import reserve
@@ -26,6 +26,8 @@ time they arrive the machine has taken as many out. Should it not, three quarter
 _MOST_COLLISIONS = 20
 _LONGEST_NAP = 0.25
 """s between two questions while nothing fits."""
+_SHORTEST_NAP = 0.02
+"""s between two of them while motion is waited for that takes longer than modelled."""
 _OFTEN = 0.4
 """s between two questions while all fits: so that silence is noticed."""
 _NAP = 0.02
@@ -57,6 +59,8 @@ class Asked(Proving):
         """Positions heard before the open question; questions in a row that met one."""
         self._progress = self._changed = self._asked_when = session.clock.now()
         """When a unit was last seen to leave the buffer; when an answer last differed."""
+        self._left_at = self._seen_at = session.clock.now()
+        """When the last of them left it, by the model, and when it was asked for before."""
         self._cleaned = session.clock.now()
         """When ESC.E was answered last."""
         self._due = session.clock.now()
@@ -77,6 +81,7 @@ class Asked(Proving):
         self.session.settle()
         self._look()
         while not self._fits(number):
+            self._rest(number)
             self._ask()
             self._wait()
             if not self._fits(number) and self._unclean and self._is_late:
@@ -89,7 +94,7 @@ class Asked(Proving):
         following = self._following(number)
         if self._unclean and (following > 3 * self._cover or waited > _OFTEN or self._is_late):
             self._ask(of_error=True)
-        elif following < self._cover or waited > _OFTEN:
+        elif waited > _OFTEN or (following < self._cover and not self._unripe(number + 1)):
             self._ask()  # what follows on the line covers the time until the answer
 
     def idle(self) -> None:
@@ -215,7 +220,13 @@ class Asked(Proving):
         done = max(self._done, bisect_right(self.sums.bytes, gone) - 1)
         if done > self._done or self._done == self.sent:
             self._progress = self.session.clock.now()
-        self._done = done
+        self._left_at = self._when_left(done)
+        self._done, self._seen_at = done, self._asked_when
+
+    def _when_left(self, done: int) -> float:
+        """Return when so many units had left the buffer: as modelled, within what was seen."""
+        modelled = self._left_at + self.sums.in_flight(self._done, done)
+        return min(max(modelled, self._seen_at), self.session.clock.now())
 
     def _judge(self, error: int) -> None:
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
@@ -243,12 +254,36 @@ class Asked(Proving):
             f"than its profile says. Its own display may say why."
         )
 
+    def _rest(self, number: int) -> None:
+        """Wait until motion that is in flight will have been executed, by the model."""
+        if self._asked is not None or not self._is_held_back(number):
+            return
+        now, early = self.session.clock.now(), len(FREE) * self.session.byte_time
+        self.session.rest_until(min(self._ripe(number) - early, now + _LONGEST_NAP))
+
     def _nap(self, number: int) -> None:
         """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
         if self._fits(number):
             return
-        clock, length = self.session.clock, len(self.sums.parts[number].data)
-        nap = _NAP * (clock.now() - self._changed)
-        if length + self._reserve <= self._bound:
-            nap = (self.sums.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
-        self.session.rest_until(clock.now() + min(_LONGEST_NAP, nap))
+        now = self.session.clock.now()
+        nap = _NAP * (now - self._changed)
+        if self._is_held_back(number):
+            if self._ripe(number) > now:
+                return
+            excess = self.sums.in_flight(self._done, number + 1) - IN_FLIGHT
+            nap = max(_SHORTEST_NAP, excess / 2)  # it is slower than the model
+        self.session.rest_until(now + min(_LONGEST_NAP, nap))
+
+    def _unripe(self, number: int) -> bool:
+        """Whether a question now would be answered before unit ``number`` may follow."""
+        if number >= len(self.sums.parts) or not self._is_held_back(number):
+            return False
+        return self._ripe(number) > self.session.clock.now() + self.session.round_trip
+
+    def _is_held_back(self, number: int) -> bool:
+        """Whether unit ``number`` waits for motion, not for bytes."""
+        return len(self.sums.parts[number].data) + self._reserve <= self._bound
+
+    def _ripe(self, number: int) -> float:
+        """Return when enough motion will have been executed for unit ``number``, by the model."""
+        return self._left_at + self.sums.in_flight(self._done, self.sums.makes_way(number))

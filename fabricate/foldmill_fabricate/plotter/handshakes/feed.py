@@ -6,7 +6,7 @@ most three seconds of motion or one stroke, whichever is longer: so that stoppin
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from itertools import accumulate
 from typing import Protocol
 
@@ -63,6 +63,12 @@ class Sums:
         if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
             return True
         return self.parts[done].stroke == self.parts[number].stroke
+
+    def makes_way(self, number: int) -> int:
+        """Return how many units must be done for unit ``number`` to follow."""
+        enough = bisect_left(self.seconds, self.seconds[number + 1] - IN_FLIGHT)
+        same = bisect_left(self.parts, self.parts[number].stroke, key=lambda part: part.stroke)
+        return min(enough, same, number)
 
     def reach(self, done: int) -> int:
         """Return a number up to which units may follow at most; little above the truth.

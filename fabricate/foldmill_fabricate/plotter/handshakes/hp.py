@@ -13,7 +13,7 @@ from collections import deque
 from foldmill_fabricate.plotter.errors import NoAnswer
 from foldmill_fabricate.plotter.session import SILENCE, Session
 
-_FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
+FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
 MET = 10
 """I/O error of a question that met another answer: it was dropped, and nothing else."""
@@ -79,7 +79,7 @@ class HpSession(Session):
 
     def ask_free(self) -> None:
         """Ask for the free bytes; ``answer`` brings them."""
-        self.send(_FREE)
+        self.send(FREE)
 
     def ask_error(self) -> None:
         """Ask for the I/O error; ``answer`` brings it."""
