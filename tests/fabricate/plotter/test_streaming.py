@@ -51,6 +51,20 @@ def test_the_line_is_busy_at_least_98_percent_of_the_time_in_which_there_is_room
     assert trial.use.busy == pytest.approx(trial.delivery.seconds, rel=0.02)
 
 
+@pytest.mark.parametrize(("baud", "buffer"), [(115200, 1024), (9600, 15358), (115200, 15358)])
+def test_what_fits_buffer_and_window_goes_at_once_where_motion_is_the_limit(
+    baud: int, buffer: int, machine: Make
+) -> None:
+    pair = 3 * 11 * 10 / baud  # s: three times what it takes on the line
+    tooth = 8 * 2**0.5 / 40  # mm
+    cutter = machine(baud=baud, buffer=buffer, acceleration=4 * tooth / pair**2, **FAST)
+    trial = stream(fine_lines(50_000, 8), cutter)
+    assert_whole(trial)
+    assert trial.use.utilisation >= 0.98
+    assert trial.use.filling <= trial.use.utilisation
+    assert trial.moving / trial.delivery.seconds > 0.99
+
+
 @pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff"])
 def test_a_machine_that_is_slower_than_the_line_never_waits_for_it(
     handshake: str, machine: Make

@@ -12,7 +12,7 @@ from math import ceil
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
-from foldmill_fabricate.plotter.handshakes.hp import FREE, LEVER_UP, MET, PAUSED, HpSession
+from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
 from foldmill_fabricate.plotter.handshakes.losses import lost
 from foldmill_fabricate.plotter.handshakes.proving import Proving
 from foldmill_fabricate.plotter.languages import reserve
@@ -20,7 +20,7 @@ from foldmill_fabricate.plotter.program import Job
 from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
 from foldmill_fabricate.plotter.witness import QUESTION
 
-LENT = 16
+LENT = 32
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
 time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
 _MOST_COLLISIONS = 20
@@ -28,6 +28,9 @@ _LONGEST_NAP = 0.25
 """s between two questions while nothing fits."""
 _SHORTEST_NAP = 0.02
 """s between two of them while motion is waited for that takes longer than modelled."""
+_FRESH = 0.3
+"""s for which the model is believed after an answer: an answer's way is longer than the line ought
+to wait, and three seconds in flight are counted by the model anyway."""
 _OFTEN = 0.4
 """s between two questions while all fits: so that silence is noticed."""
 _NAP = 0.02
@@ -82,6 +85,8 @@ class Asked(Proving):
         self._look()
         while not self._fits(number):
             self._rest(number)
+            if self._fits(number):
+                break
             self._ask()
             self._wait()
             if not self._fits(number) and self._unclean and self._is_late:
@@ -128,7 +133,9 @@ class Asked(Proving):
 
     def _fits(self, number: int) -> bool:
         length = len(self.sums.parts[number].data)
-        return length + self._kept <= self._bound and self.sums.may_follow(self._done, number)
+        if length + self._kept > self._bound:
+            return False
+        return self.sums.may_follow(self._done, number) or self._is_ripe(number)
 
     def _following(self, number: int) -> int:
         """Return the bytes that could follow unit ``number`` without another answer."""
@@ -220,7 +227,8 @@ class Asked(Proving):
         done = max(self._done, bisect_right(self.sums.bytes, gone) - 1)
         if done > self._done or self._done == self.sent:
             self._progress = self.session.clock.now()
-        self._left_at = self._when_left(done)
+        if done > self._done:
+            self._left_at = self._when_left(done)
         self._done, self._seen_at = done, self._asked_when
 
     def _when_left(self, done: int) -> float:
@@ -258,8 +266,8 @@ class Asked(Proving):
         """Wait until motion that is in flight will have been executed, by the model."""
         if self._asked is not None or not self._is_held_back(number):
             return
-        now, early = self.session.clock.now(), len(FREE) * self.session.byte_time
-        self.session.rest_until(min(self._ripe(number) - early, now + _LONGEST_NAP))
+        now = self.session.clock.now()
+        self.session.rest_until(min(self._ripe(number), now + _LONGEST_NAP))
 
     def _nap(self, number: int) -> None:
         """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
@@ -272,7 +280,20 @@ class Asked(Proving):
                 return
             excess = self.sums.in_flight(self._done, number + 1) - IN_FLIGHT
             nap = max(_SHORTEST_NAP, excess / 2)  # it is slower than the model
+        else:
+            nap = max(nap, self._seen_at + self._until_free(number) / 2 - now)
         self.session.rest_until(now + min(_LONGEST_NAP, nap))
+
+    def _is_ripe(self, number: int) -> bool:
+        """Whether unit ``number`` may follow by the model, which a fresh answer bears out."""
+        now = self.session.clock.now()
+        return self._ripe(number) <= now < self._seen_at + _FRESH
+
+    def _until_free(self, number: int) -> float:
+        """Return the motion after the last answer until unit ``number`` finds room, s."""
+        gone = max(0, self.sums.bytes[self._free_at] - (self.session.buffer - self._free))
+        missing = len(self.sums.parts[number].data) + self._kept - self._bound
+        return self.sums.at_byte(gone + missing) - self.sums.at_byte(gone)
 
     def _unripe(self, number: int) -> bool:
         """Whether a question now would be answered before unit ``number`` may follow."""
@@ -285,5 +306,11 @@ class Asked(Proving):
         return len(self.sums.parts[number].data) + self._reserve <= self._bound
 
     def _ripe(self, number: int) -> float:
-        """Return when enough motion will have been executed for unit ``number``, by the model."""
-        return self._left_at + self.sums.in_flight(self._done, self.sums.makes_way(number))
+        """Return when enough motion will have been executed for unit ``number``, by the model.
+
+        What was under way when it was last asked is taken for done by then at the earliest.
+        """
+        sums, done = self.sums, self._done
+        under_way = sums.in_flight(done, min(done + 1, len(sums.parts)))
+        began = max(self._left_at, self._seen_at - under_way)
+        return began + sums.in_flight(done, sums.makes_way(number))

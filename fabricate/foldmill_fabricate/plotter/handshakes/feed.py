@@ -58,6 +58,12 @@ class Sums:
         """Return the motion of units ``done`` … ``sent`` - 1, s."""
         return self.seconds[sent] - self.seconds[done]
 
+    def at_byte(self, byte: int) -> float:
+        """Return the motion before a byte of the program, s, evenly spread within a unit."""
+        number = min(bisect_right(self.bytes, byte) - 1, len(self.parts) - 1)
+        share = (byte - self.bytes[number]) / len(self.parts[number].data)
+        return self.seconds[number] + share * self.parts[number].seconds
+
     def may_follow(self, done: int, number: int) -> bool:
         """Whether the next unit keeps what is in flight short, or within one stroke."""
         if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
