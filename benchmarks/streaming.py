@@ -19,8 +19,9 @@ motors       time in which the machine moved, of all
 
 Where motion is the limit and the buffer large, room is left unused on purpose: at most three
 seconds of motion are in flight, so that stopping means something; "filling" is low there and says
-so. The answer's own way, 3-10 ms an instruction, is hidden by lending up to 32 bytes of the
-reserve, and where motion is waited for by believing the motion model shortly after an answer. The
+so. The answer's own way, 3-10 ms an instruction, is hidden by lending up to half of the reserve,
+and where motion is waited for by believing the motion model shortly after an answer. At 115200
+baud and 255 bytes an instruction takes as long as a question and its answer, and some is lost. The
 motors never wait. A machine that is not asked at all ("none") is fed by the motion model, with
 caution, and so does wait.
 """
@@ -56,6 +57,8 @@ CASES = [
     Case("esc-b", 9600, 255, "motion"),
     Case("esc-b", 9600, 1024, "line"),
     Case("esc-b", 9600, 1024, "motion"),
+    Case("esc-b", 115200, 255, "line"),
+    Case("esc-b", 115200, 255, "motion"),
     Case("esc-b", 115200, 1024, "line"),
     Case("esc-b", 115200, 1024, "motion"),
     Case("esc-b", 9600, 15_358, "line"),

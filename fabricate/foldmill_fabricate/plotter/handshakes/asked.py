@@ -22,7 +22,8 @@ from foldmill_fabricate.plotter.witness import QUESTION
 
 LENT = 32
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
-time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
+time they arrive the machine has taken as many out. Besides, as many as it has taken by the model
+since the answer, another quarter at most. Should it not, half the reserve is still free."""
 _MOST_COLLISIONS = 20
 _LONGEST_NAP = 0.25
 """s between two questions while nothing fits."""
@@ -131,9 +132,22 @@ class Asked(Proving):
         sums = self.sums
         return self._free - (sums.bytes[self.sent] - sums.bytes[self._free_at])
 
+    @property
+    def _gone(self) -> int:
+        """Bytes of the program that had left the buffer by the last answer."""
+        return max(0, self.sums.bytes[self._free_at] - (self.session.buffer - self._free))
+
+    @property
+    def _taken(self) -> int:
+        """Bytes that have left it since by the model, a quarter of the reserve at most."""
+        since = min(self.session.clock.now() - self._seen_at, _FRESH)
+        gone = self._gone
+        by_now = self.sums.byte_at(self.sums.at_byte(gone) + since)
+        return min(by_now - gone, self._reserve // 4)
+
     def _fits(self, number: int) -> bool:
         length = len(self.sums.parts[number].data)
-        if length + self._kept > self._bound:
+        if length + self._kept > self._bound + self._taken:
             return False
         return self.sums.may_follow(self._done, number) or self._is_ripe(number)
 
@@ -281,7 +295,7 @@ class Asked(Proving):
             excess = self.sums.in_flight(self._done, number + 1) - IN_FLIGHT
             nap = max(_SHORTEST_NAP, excess / 2)  # it is slower than the model
         else:
-            nap = max(nap, self._seen_at + self._until_free(number) / 2 - now)
+            nap = max(nap, self._seen_at + self._until_free(number) - now)
         self.session.rest_until(now + min(_LONGEST_NAP, nap))
 
     def _is_ripe(self, number: int) -> bool:
@@ -290,10 +304,14 @@ class Asked(Proving):
         return self._ripe(number) <= now < self._seen_at + _FRESH
 
     def _until_free(self, number: int) -> float:
-        """Return the motion after the last answer until unit ``number`` finds room, s."""
-        gone = max(0, self.sums.bytes[self._free_at] - (self.session.buffer - self._free))
+        """Return how long after the last answer it is to be asked if unit ``number`` finds room.
+
+        That is when the model says so, where it may be believed; else after half of that motion.
+        """
+        gone = self._gone
         missing = len(self.sums.parts[number].data) + self._kept - self._bound
-        return self.sums.at_byte(gone + missing) - self.sums.at_byte(gone)
+        motion = self.sums.at_byte(gone + missing) - self.sums.at_byte(gone)
+        return motion if missing <= self._reserve // 4 else motion / 2
 
     def _unripe(self, number: int) -> bool:
         """Whether a question now would be answered before unit ``number`` may follow."""

@@ -64,6 +64,13 @@ class Sums:
         share = (byte - self.bytes[number]) / len(self.parts[number].data)
         return self.seconds[number] + share * self.parts[number].seconds
 
+    def byte_at(self, seconds: float) -> int:
+        """Return the byte of the program before which there is so much motion, s."""
+        number = min(bisect_right(self.seconds, seconds) - 1, len(self.parts) - 1)
+        part = self.parts[number]
+        share = (seconds - self.seconds[number]) / part.seconds if part.seconds else 1.0
+        return self.bytes[number] + int(min(share, 1.0) * len(part.data))
+
     def may_follow(self, done: int, number: int) -> bool:
         """Whether the next unit keeps what is in flight short, or within one stroke."""
         if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
