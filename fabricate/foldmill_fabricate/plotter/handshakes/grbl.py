@@ -97,11 +97,13 @@ class GrblSession(Session):
     def abort(self, unsent: int | None) -> str:  # noqa: ARG002
         """Hold, so that the place is not lost; drop all; lift the tool."""
         self.port.write(_HOLD)
-        before = self.clock.now()
-        while self.clock.now() < before + _WELCOME:
+        began, said = self.clock.now(), self.statuses
+        while self.clock.now() < began + _WELCOME:
             if self._state_again().startswith(("Hold:0", "Idle", "Alarm")):
                 break
-        self._reset()
+            if self.statuses == said and self.clock.now() > began + SILENCE / 2:
+                break  # it is dead, or cannot be heard
+        self._reset(_WELCOME if self.statuses > said else SILENCE / 2)
         if b"Z" in self.lift:
             self.port.write(self.lift)
         return "The machine was told to hold, and to drop what it has."
@@ -114,11 +116,11 @@ class GrblSession(Session):
             self._more()
         return self.state
 
-    def _reset(self) -> None:
+    def _reset(self, patience: float = _WELCOME) -> None:
         """Reset, and wait until it is back."""
         self.trouble = ""
         self.port.write(_RESET)
-        limit = self.clock.now() + _WELCOME
+        limit = self.clock.now() + patience
         while not self.trouble and self.clock.now() < limit:
             self._more()
 
