@@ -19,7 +19,7 @@ from foldmill_fabricate.plotter.errors import PlotterError
 
 MACHINE, HOST = "machine", "host"
 _DIGITS = 6
-_EXACT = 10**-_DIGITS
+_EXACT = 1e-6
 """s to which times are written down; an answer must not be late for that."""
 
 
@@ -87,7 +87,7 @@ class Replayed:
         read = [json.loads(row) for row in rows if row.strip()]
         self._written = b"".join(bytes.fromhex(row["data"]) for row in read if row["to"] == MACHINE)
         self._at = 0
-        self._when = {0: 0.0}
+        self._when: dict[int, float] = {0: 0.0}
         """By bytes written: when they were."""
         self._answers: deque[tuple[float, int, bytes]] = deque()
         """How long after how many bytes which answer came."""
@@ -125,7 +125,8 @@ class Replayed:
     def _due(self) -> float:
         """When the next answer comes, s; it is counted from the last writing it can follow."""
         after, sent, _ = self._answers[0]
-        return self._when.get(sent, self._when[self._at]) + after - 2 * _EXACT
+        when: float = self._when.get(sent, self._when[self._at])
+        return when + after - 2 * _EXACT
 
     def write(self, data: bytes) -> int:
         """Take what was written then; raises PlotterError for anything else."""

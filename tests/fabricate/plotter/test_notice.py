@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
-from threading import Thread
+from threading import Thread, Timer
 from typing import Any
 
 import pytest
@@ -85,7 +85,7 @@ def test_a_stop_from_another_thread_is_heard_at_once(
     seen: list[Progress] = []
     with serve_tcp(simulator) as url, open_port(url, cutter) as port:
         began = time.monotonic()
-        Thread(target=lambda: (time.sleep(0.8), wish.stop()), daemon=True).start()
+        Timer(0.8, wish.stop).start()
         with pytest.raises(Stopped, match="The machine was told"):
             send(programs[cutter.language], port, cutter, progress=seen.append, wish=wish)
         took = time.monotonic() - began
