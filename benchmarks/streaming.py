@@ -13,13 +13,17 @@ utilisation  time in which the line was busy, of that and the time in which it s
              the next whole instruction could have gone (free bytes less those on the wire at least
              its length and the reserve; on XON/XOFF: the machine did not hold; and at most three
              seconds of motion, or one stroke, not begun by the machine)
+filling      the same, without the last condition: what a sender would do that fills the buffer
 payload      HP-GL among all bytes sent
 motors       time in which the machine moved, of all
 
 Where motion is the limit and the buffer large, room is left unused on purpose: at most three
-seconds of motion are in flight, so that stopping means something. The answer's own way, 6-10 ms an
-instruction, is hidden by lending up to 16 bytes of the reserve. The motors never wait. A machine
-that is not asked at all ("none") is fed by the motion model, with caution, and so does wait.
+seconds of motion are in flight, so that stopping means something; "filling" is low there and says
+so. The answer's own way, 3-10 ms an instruction, is hidden by lending up to half of the reserve,
+and where motion is waited for by believing the motion model shortly after an answer. At 115200
+baud and 255 bytes an instruction takes as long as a question and its answer, and some is lost. The
+motors never wait. A machine that is not asked at all ("none") is fed by the motion model, with
+caution, and so does wait.
 """
 
 from __future__ import annotations
@@ -53,6 +57,8 @@ CASES = [
     Case("esc-b", 9600, 255, "motion"),
     Case("esc-b", 9600, 1024, "line"),
     Case("esc-b", 9600, 1024, "motion"),
+    Case("esc-b", 115200, 255, "line"),
+    Case("esc-b", 115200, 255, "motion"),
     Case("esc-b", 115200, 1024, "line"),
     Case("esc-b", 115200, 1024, "motion"),
     Case("esc-b", 9600, 15_358, "line"),
@@ -87,7 +93,10 @@ def main() -> None:
     """Print one row per case."""
     size = int(sys.argv[1]) if len(sys.argv) > 1 else 200_000
     program = fine_lines(size, _STEP)
-    print("handshake   baud buffer  limit   bytes lost  same fullest utilisation payload motors")
+    print(
+        "handshake   baud buffer  limit   bytes lost  same fullest utilisation filling payload "
+        "motors"
+    )
     for case in CASES:
         began = time.perf_counter()
         trial = stream(program, machine(case))
@@ -96,8 +105,9 @@ def main() -> None:
         print(
             f"{case.handshake:8s} {case.baud:7d} {case.buffer:6d} {case.limit:>6s} "
             f"{trial.delivery.bytes:7d} {trial.traffic.overruns:4d} {trial.identical!s:>5s} "
-            f"{trial.traffic.fullest:7d} {trial.use.utilisation:11.2%} {trial.use.payload:7.1%} "
-            f"{trial.moving / seconds:6.1%}  {seconds:5.0f} s simulated in {real:.1f} s"
+            f"{trial.traffic.fullest:7d} {trial.use.utilisation:11.2%} {trial.use.filling:7.1%} "
+            f"{trial.use.payload:7.1%} {trial.moving / seconds:6.1%}  "
+            f"{seconds:5.0f} s simulated in {real:.1f} s"
         )
 
 

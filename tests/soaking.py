@@ -71,9 +71,18 @@ class Soak:
 
 
 def _commit() -> str:
-    words = ["git", "-C", str(ROOT), "describe", "--always", "--dirty"]
-    said = subprocess.run(words, capture_output=True, text=True, check=False)
-    return said.stdout.strip() or "unknown"
+    """Return the commit, marked where anything but the figures themselves has changed since."""
+    said = _git("describe", "--always")
+    figures = f":!{FIGURES.relative_to(ROOT)}"
+    dirty = _git("status", "--porcelain", "--untracked-files=no", "--", ".", figures)
+    return f"{said}-dirty" if said and dirty else said or "unknown"
+
+
+def _git(*words: str) -> str:
+    said = subprocess.run(
+        ["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=False
+    )
+    return said.stdout.strip()
 
 
 def _write_down(name: str, row: str, seconds: float) -> None:

@@ -45,6 +45,7 @@ TEST_CUT, MARKS = "test-cut", "marks"
 """What the ledger calls answers that belong to no gate."""
 _ENDS = {
     Status.EXECUTED: State.DONE,
+    Status.ENDED: State.DONE,
     Status.UNCONFIRMED: State.UNCONFIRMED,
     Status.FAULT: State.INTERRUPTED,
 }
@@ -294,7 +295,7 @@ class _Work:
         """
         assert self.run is not None
         state = _ENDS[delivery.status]
-        self.run.end(state, delivery.fault)
+        self.run.end(state, delivery.fault or delivery.proved)
         answers = self.bench.job.plan.machine.serial.answers
         cannot_say = state is State.UNCONFIRMED and not answers
         if cannot_say and self.bench.operator.has_finished(self.record):

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.formats import gcode, hpgl
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.marks import targets
 from foldmill_fabricate.passes import XY, Face, Fit, Plan
@@ -113,9 +113,17 @@ class Jogger:
 def move(to: XY, machine: Machine, *, first: bool = True) -> bytes:
     """Return the program that goes to a place, carrier coordinates in mm, with the tool up.
 
-    first : whether nothing was sent before; only then it begins the machine anew.
+    first : whether nothing was sent before; only then it begins the machine anew. Raises CannotSend
+    for a machine whose language has no word for where it stands, DoesNotFit beyond its range.
     """
     ((x, y),) = hpgl.steps([to], machine.axes, "The way").tolist()
+    if machine.language == "gcode":
+        return gcode.travel((x, y), machine)
+    if machine.language != "hpgl":
+        raise CannotSend(
+            f"{machine.slug} speaks {machine.language}, in which nobody can lead it about safely: "
+            "it does not say where it stands. Move it with its own keys."
+        )
     begin = machine.dialect.preamble if first else "PA;"
     return "".join(line + machine.dialect.line_end for line in (begin, f"PU{x},{y};")).encode()
 

@@ -46,7 +46,7 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     machine = job.plan.machine
     program = program_of(job, part)
     where = _where(program, record, machine)
-    found = stand(port, machine)
+    found = stand(port, machine) if machine.language == "hpgl" else None
     if found is None:
         return Place(None, f"{where} {_half(machine)}".strip())
     start = resume.locate(program, last.acked, last.sent, found.at, is_down=found.is_down)

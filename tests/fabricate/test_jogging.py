@@ -117,3 +117,41 @@ def test_steps_and_millimetres_are_each_others_inverse(swap: bool) -> None:
 def test_a_move_that_does_more_than_move_does_not_pass(data: bytes, code: str) -> None:
     assert code in {finding.code for finding in prove_pen_up(data, MACHINE)}
     assert not prove_pen_up(b"IN;DF;PA;\nPU400,400;\n", MACHINE)
+
+
+def test_grbl_is_led_about_with_its_knife_up_and_says_where_it_stands() -> None:
+    bench = Bench(small_plan("grbl-drag-knife"))
+    knife = shelf.machine("grbl-drag-knife")
+    with link.open_port(bench.url, knife) as port:
+        jogger = Jogger(port, knife)
+        jogger.go((100.0, 120.0))
+        jogger.by(35.0, -10.0)
+        assert np.allclose(jogger.ask(), (135.0, 110.0), atol=0.02)
+        with pytest.raises(CannotSend, match="beyond what"):
+            jogger.by(900.0, 0.0)
+    assert b"?" in bench.simulator.device.traffic.received
+    places = re.findall(rb"G0X([\d.]+)Y([\d.]+)", bytes(bench.simulator.device.traffic.program))
+    way = np.array([(100.0, 120.0), *np.array(places, float)])
+    assert np.hypot(*np.diff(way[-2:], axis=0).T).max() <= HOP + 0.05
+    assert not bench.simulator.sheet.seen(Face.FRONT)
+    bench.leave()
+
+
+@pytest.mark.parametrize(
+    ("data", "code"),
+    [
+        (b"G21G90G94\nG0Z5\nG0X100Y100\nG1Z-1F300\nG1X120F600\nG0Z5\n", "pen-down"),
+        (b"G21G90G94\nG0X100Y100\n", "low-travel"),
+        (b"G21G90G94\nG0Z5\nG0X5000Y100\n", "outside-bed"),
+    ],
+)
+def test_a_move_in_g_code_that_does_more_than_move_does_not_pass(data: bytes, code: str) -> None:
+    knife = shelf.machine("grbl-drag-knife")
+    assert code in {finding.code for finding in prove_pen_up(data, knife)}
+    assert not prove_pen_up(jogging.move((100.0, 100.0), knife), knife)
+
+
+def test_a_machine_of_a_language_without_places_is_not_led_about() -> None:
+    silhouette = shelf.machine("silhouette-like")
+    with pytest.raises(CannotSend, match="does not say where it stands"):
+        jogging.move((100.0, 100.0), silhouette)

@@ -20,7 +20,7 @@ from foldmill_fabricate.cli.output import AsJson, say
 if TYPE_CHECKING:
     from foldmill_fabricate.delivering import Sent
     from foldmill_fabricate.passes import Plan, ProgramFile
-    from foldmill_fabricate.plotter.sender import Progress
+    from foldmill_fabricate.plotter.sender import Delivery, Progress
     from foldmill_fabricate.sending import Job
 
 
@@ -122,8 +122,7 @@ def send(
             if not done:
                 bar.end(f"Sheet {sent.sheet}")
             done.append(sent)
-            told = f"{sent.program.name}: {sent.delivery.status} {sent.delivery.fault}"
-            bar.end(told.rstrip())
+            bar.end(f"{sent.program.name}: {_ended(sent.delivery)}")
     if draw is not None:
         _draw(port, draw, as_json, job.plan)
     if as_json:
@@ -328,3 +327,12 @@ def _draw(url: str, folder: Path, aside: bool, plan: Plan) -> None:
     simulator = devices.behind(url)
     for path in draw(simulator.sheet, simulator.machine, folder, plan):
         typer.echo(f"drawn: {path}", err=aside)
+
+
+def _ended(delivery: Delivery) -> str:
+    """Say how a delivery ended, and what is wrong with that or not known."""
+    from foldmill_fabricate.plotter.endings import Status
+
+    known = delivery.status is Status.EXECUTED
+    words = delivery.fault or ("" if known else delivery.proved)
+    return f"{delivery.status}. {words}" if words else str(delivery.status)

@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from math import ceil, log10
 
+import numpy as np
+
 from foldmill import Fold
 from foldmill_fabricate.formats import programs
-from foldmill_fabricate.machines import Gcode
+from foldmill_fabricate.machines import Gcode, Machine
 from foldmill_fabricate.passes import Face, Fit, Plan, SetUp
 
 
@@ -35,6 +37,12 @@ def program(plan: Plan, numbers: Sequence[int], fit: Fit | None = None) -> bytes
     for face, setup in programs.chosen(plan, numbers):
         lines += _setup(plan, face, setup, fit)
     return "\n".join([*lines, "M2", ""]).encode("ascii")
+
+
+def travel(step: tuple[int, int], machine: Machine) -> bytes:
+    """Return the lines that go to a place, machine steps, with the tool up or the beam off."""
+    (place,) = _places(np.array([step]), machine.axes.units_per_mm)
+    return "\n".join(["G21G90G94", _off(machine.gcode), f"G0{place}", ""]).encode("ascii")
 
 
 def feed(speed: float) -> str:

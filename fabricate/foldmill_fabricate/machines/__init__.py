@@ -204,6 +204,10 @@ class Serial(Preset):
     """Bytes the machine holds before it overruns."""
     answers: bool = True
     """Whether it replies to OA, OE and ESC.B at all."""
+    reports_losses: bool = False
+    """Whether it knows ESC.E, by which it tells of bytes lost on the line; with ``esc-b`` and
+    ``enq-ack`` it does in any case. Without, a program ends "at its end" at best, not "executed".
+    """
 
 
 class Marks(Preset):

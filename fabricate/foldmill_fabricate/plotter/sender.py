@@ -52,6 +52,8 @@ class Delivery:
     """the error it reports; 0 for none"""
     fault: str = ""
     """what is wrong, a sentence; empty for nothing"""
+    proved: str = ""
+    """what the machine's answers prove, and what they do not; empty for nothing"""
 
 
 class Book(Protocol):
@@ -134,13 +136,12 @@ class _Delivery:
         self._stream(job, feed, tell)
         self._book.advance(job.strokes, feed.acked)
         end = feed.confirm()
-        certain = job.strokes if end.status is Status.EXECUTED else feed.acked
+        certain = job.strokes if end.status.is_done else feed.acked
         self._book.advance(job.strokes, certain)
         count = sum(not part.asks for part in job.parts)
         seconds = session.clock.now() - began
-        return Delivery(
-            end.status, len(job.data), count, seconds, end.position, end.error, end.fault
-        )
+        how = end.position, end.error, end.fault, end.proved
+        return Delivery(end.status, len(job.data), count, seconds, *how)
 
     def _stream(self, job: Job, feed: Feed, tell: Callable[[Progress], None]) -> None:
         total, count = len(job.data), sum(not part.asks for part in job.parts)

@@ -23,6 +23,8 @@ READ_SLICE = 0.02
 """s that one read waits at most; deadlines are counted by the clock."""
 _SHORT = 0.002
 """s between two looks shortly before a deadline."""
+_FEW = 5
+"""Bytes that a fast line brings meanwhile."""
 _LOOK = 0.25
 """s between two looks at a port while nothing else is to be done."""
 
@@ -100,7 +102,7 @@ class Session:
         self.heed()
         left = deadline - self.clock.now()
         if left < READ_SLICE:
-            self.clock.sleep(min(left, _SHORT))
+            self.clock.sleep(min(left, _SHORT, _FEW * self.byte_time))
             self.listen()
             return
         came = self.port.read(1)

@@ -18,6 +18,9 @@ from foldmill_fabricate.plotter.clock import Clock, VirtualClock
 from foldmill_fabricate.plotter.errors import PlotterError
 
 MACHINE, HOST = "machine", "host"
+_DIGITS = 6
+_EXACT = 1e-6
+"""s to which times are written down; an answer must not be late for that."""
 
 
 class Recorded:
@@ -46,7 +49,7 @@ class Recorded:
 
     def _note(self, direction: str, data: bytes) -> None:
         seconds = self.__dict__["_clock"].now() - self.__dict__["_began"]
-        row = {"t": round(seconds, 6), "to": direction, "data": data.hex()}
+        row = {"t": round(seconds, _DIGITS), "to": direction, "data": data.hex()}
         self.__dict__["_to"].write(json.dumps(row) + "\n")
 
 
@@ -68,7 +71,11 @@ def recorded(port: Any, clock: Clock, path: Path | None) -> Iterator[Any]:
 
 
 class Replayed:
-    """A port made of a transcript, on a clock of its own."""
+    """A port made of a transcript, on a clock of its own.
+
+    An answer comes as long after what was written before it as it did then, so that it does not
+    matter how long a person took between two programs.
+    """
 
     is_open = True
     out_waiting = 0
@@ -80,14 +87,17 @@ class Replayed:
         read = [json.loads(row) for row in rows if row.strip()]
         self._written = b"".join(bytes.fromhex(row["data"]) for row in read if row["to"] == MACHINE)
         self._at = 0
+        self._when: dict[int, float] = {0: 0.0}
+        """By bytes written: when they were."""
         self._answers: deque[tuple[float, int, bytes]] = deque()
-        sent = 0
+        """How long after how many bytes which answer came."""
+        sent, last = 0, 0.0
         for row in read:
-            data = bytes.fromhex(row["data"])
+            data, at = bytes.fromhex(row["data"]), float(row["t"])
             if row["to"] == MACHINE:
-                sent += len(data)
+                sent, last = sent + len(data), at
             else:
-                self._answers.append((float(row["t"]), sent, data))
+                self._answers.append((at - last, sent, data))
         self._heard = b""
 
     @classmethod
@@ -109,8 +119,14 @@ class Replayed:
 
     @property
     def _is_due(self) -> bool:
-        moment, sent, _ = self._answers[0]
-        return sent <= self._at and moment <= self.clock.now()
+        return self._answers[0][1] <= self._at and self._due <= self.clock.now()
+
+    @property
+    def _due(self) -> float:
+        """When the next answer comes, s; it is counted from the last writing it can follow."""
+        after, sent, _ = self._answers[0]
+        when: float = self._when.get(sent, self._when[self._at])
+        return when + after - 2 * _EXACT
 
     def write(self, data: bytes) -> int:
         """Take what was written then; raises PlotterError for anything else."""
@@ -120,13 +136,14 @@ class Replayed:
                 f"Byte {self._at} of the transcript: {wanted!r} was written then, {data!r} now."
             )
         self._at += len(data)
+        self._when[self._at] = self.clock.now()
         return len(data)
 
     def read(self, size: int = 1) -> bytes:
         """Return what is there, or wait for the next answer up to the time-out."""
         if self.in_waiting < size:
             limit = self.clock.now() + (self.timeout or 0.0)
-            due = self._answers[0][0] if self._answers else limit
+            due = self._due if self._answers else limit
             self.clock.sleep_until(min(max(due, self.clock.now()), limit))
             if self.in_waiting < size:
                 self.clock.sleep_until(limit)

@@ -32,12 +32,12 @@ _OE = {
 }
 
 
-def watched(job: Job, question: bytes = QUESTION) -> Job:
-    """Put a question between strokes, about every half second of motion."""
-    return replace(job, parts=tuple(_watched(job.parts, question)))
+def watched(job: Job, *questions: bytes) -> Job:
+    """Put questions (``OA;OE;``) between strokes, about every half second of motion."""
+    return replace(job, parts=tuple(_watched(job.parts, questions or (QUESTION,))))
 
 
-def _watched(parts: tuple[Instruction, ...], question: bytes) -> Iterator[Instruction]:
+def _watched(parts: tuple[Instruction, ...], questions: tuple[bytes, ...]) -> Iterator[Instruction]:
     lengths: dict[int, float] = {}
     for part in parts:
         lengths[part.stroke] = lengths.get(part.stroke, 0.0) + part.seconds
@@ -48,7 +48,8 @@ def _watched(parts: tuple[Instruction, ...], question: bytes) -> Iterator[Instru
         if after is None or after.stroke == part.stroke or part.at is None:
             continue
         if since >= EVERY or since + lengths[after.stroke] > LONG:
-            yield Instruction(question, 0.0, part.stroke, part.at, asks=True, down=part.down)
+            for question in questions:
+                yield Instruction(question, 0.0, part.stroke, part.at, asks=True, down=part.down)
             since = 0.0
 
 

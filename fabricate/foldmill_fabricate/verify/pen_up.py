@@ -6,17 +6,17 @@ import numpy as np
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.verify.interpreter import interpret
+from foldmill_fabricate.verify.gcode import interpret as gcode
+from foldmill_fabricate.verify.interpreter import Trace, interpret
 from foldmill_fabricate.verify.virtual_sheet import on_carrier
 
 
 def prove_pen_up(data: bytes, machine: Machine) -> tuple[Finding, ...]:
     """Return what is wrong with a program that is to move only; nothing is sent where it is not ().
 
-    A program that is sent behind another one has no IN of its own; one is put in front here.
+    HP-GL that is sent behind another program has no IN of its own; one is put in front here.
     """
-    begun = data if b"IN;" in data else b"IN;" + data
-    trace = interpret(begun, "move", selects=False)
+    trace = _traced(data, machine)
     found = list(trace.findings)
     if trace.runs:
         found.append(_error("pen-down", "It lowers the tool."))
@@ -32,6 +32,13 @@ def prove_pen_up(data: bytes, machine: Machine) -> tuple[Finding, ...]:
         x, y = carrier[int(np.argmax(beyond.any(axis=1)))]
         found.append(_error("outside-bed", f"({x:.2f}, {y:.2f}) mm is beyond its margins."))
     return tuple(found)
+
+
+def _traced(data: bytes, machine: Machine) -> Trace:
+    if machine.language == "gcode":
+        return gcode(data, "move", machine)
+    begun = data if b"IN;" in data else b"IN;" + data
+    return interpret(begun, "move", selects=False)
 
 
 def _error(code: str, text: str) -> Finding:

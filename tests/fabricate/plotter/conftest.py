@@ -59,3 +59,21 @@ def plugged() -> Iterator[Callable[[Simulator], str]]:
     yield plug
     for url in urls:
         devices.unplug(url)
+
+
+@pytest.fixture
+def programs() -> dict[str, bytes]:
+    """Of each language a program of many strokes of some seconds each."""
+    far = range(10, 210, 2)
+    return {
+        "hpgl": b"IN;SP1;VS10;"
+        + b"".join(b"PU%d,0;PD%d,4000;PD%d,0;" % (40 * x, 40 * x, 40 * x) for x in far)
+        + b"PU;",
+        "gcode": b"G21G90\nG0Z5\n"
+        + b"".join(
+            b"G0X%dY10\nG1Z-1F600\nG1X%dY110F6000\nG1X%dY10\nG0Z5\n" % (x, x, x) for x in far
+        ),
+        "gp-gl": b"J1\x03!10\x03FX10\x03"
+        + b"".join(b"M%d,0\x03D%d,2000,%d,0\x03" % (20 * x, 20 * x, 20 * x) for x in far)
+        + b"M0,0\x03",
+    }

@@ -1,13 +1,16 @@
 """Every fault at every handshake at three places: what happens, and what must.
 
-A cell ends in one of three ways. (A) recovered: executed, and what was drawn is what was planned.
+A cell ends in one of four ways. (A) recovered: executed, and what was drawn is what was planned.
 (B) stopped, or not confirmed by a machine that can confirm: what was drawn holds all that the book
 calls certain and nothing that was not sent, and what is in doubt is short. (C) undetectable, for
-this handshake hears nothing of it: "sent, not confirmed".
+this handshake hears nothing of it: "sent, not confirmed", or "at its end" with the statement that
+nobody asked whether all was received; never "executed". (D) a digit of a vertex became another on a
+line without parity: no machine can know, and what it says is true of the program that it received.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from foldmill import installed
@@ -16,13 +19,17 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.plotter.endings import Status
 from foldmill_fabricate.plotter.errors import PlotterError
+from foldmill_fabricate.plotter.handshakes import choice
+from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT
 from foldmill_fabricate.plotter.languages import made_ready
 from foldmill_fabricate.plotter.link import open_port
+from foldmill_fabricate.plotter.program import Instruction
 from foldmill_fabricate.plotter.sender import send
 from foldmill_fabricate.plotter.simulator import devices
 from foldmill_fabricate.plotter.simulator.drawing import Drawn
 from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.witness import EVERY, LONG
 
 STROKES = 14
 _X = range(1000, 1000 + 200 * STROKES, 200)
@@ -47,7 +54,7 @@ HANDSHAKES = {
     "paced": ("generic-hpgl-600", {"answers": False}),
     "xon-xoff": ("generic-hpgl-600", {}),
     "rts-cts": ("generic-hpgl-600", {}),
-    "dtr": ("generic-hpgl-600", {}),
+    "dtr": ("generic-hpgl-600", {"reports_losses": True}),
     "esc-b": ("generic-hpgl-600", {}),
     "enq-ack": ("generic-hpgl-600", {}),
     "grbl": ("grbl-drag-knife", {}),
@@ -66,6 +73,8 @@ FAULTS = {
     "noise": "noise@{bytes}x7",
     "framing": "framing@{bytes}x7",
     "overflow": "overflow@{bytes}x7",
+    "vertex dropped": "overflow@{vertex}programx{length}",
+    "digit": "noise@{digit}programx1",
     "disconnect": "disconnect@{strokes}strokes",
     "disconnect, 3 s": "disconnect@{strokes}strokes:3s",
     "lever": "lever@{strokes}strokes",
@@ -89,6 +98,8 @@ EXPECTED = {
     "noise": "C C B B B B B B B",
     "framing": "C C B B B B B B B",
     "overflow": "C C B B B B B B C",
+    "vertex dropped": "C C C C B B B B C",
+    "digit": "C C C C D D D D C",
     "disconnect": "B B B B B B B B B",
     "disconnect, 3 s": "B B B B B B B B B",
     "lever": "C C B B B B B B B",
@@ -98,8 +109,23 @@ EXPECTED = {
     "slow, a little": "C C A A A A A A C",
 }
 """The end of every cell; it is the same at the three places."""
-LINE = frozenset({"noise", "framing", "overflow"})
+LINE = frozenset({"noise", "framing", "overflow", "vertex dropped", "digit"})
 """Faults that change what the machine receives, so that it may see an instruction divided."""
+DROPPED = frozenset({"overflow", "vertex dropped"})
+"""Faults that drop bytes at the machine, whatever its room."""
+_ERROR_ASKED = 1.05
+"""s between two ESC.E at most: 0.8 s, and the longest nap between two questions."""
+WINDOW = {
+    **dict.fromkeys(("xon-xoff", "rts-cts"), IN_FLIGHT + LONG),
+    **dict.fromkeys(("dtr", "enq-ack"), IN_FLIGHT + LONG + EVERY),
+    "esc-b": IN_FLIGHT + LONG + _ERROR_ASKED,
+    **dict.fromkeys(("grbl", "gp-gl"), IN_FLIGHT),
+}
+"""Motion that may be sent and not certain, s, besides one stroke, which counts as soon as its first
+byte leaves. Three seconds are in flight by the model. Proofs stand between strokes, so that up to
+LONG is executed and not yet proved; where ESC.E must also say that nothing was lost, what was
+executed since it was last asked comes on top. GRBL and GP-GL count what is in flight from the last
+proof on, and need no more. Handshakes without answers are certain of nothing."""
 
 
 def expected(cell: Cell) -> str:
@@ -121,7 +147,7 @@ class Outcome:
     """What happened in a cell."""
 
     end: str
-    """A, B or C; "" for a success that is none"""
+    """A, B, C or D"""
     words: str
     """the sentence"""
     drawn: list[Drawn]
@@ -162,6 +188,8 @@ def machine_of(handshake: str) -> Machine:
     return base.model_copy(update={"serial": serial})
 
 
+_CUTS = re.compile(rb"(?:PD\d+,\d|G1X[\d.]+Y|D\d+,\d)[89]*([0-7])")
+"""An instruction that cuts, up to a digit that can become another without a sign."""
 _planned: dict[str, list[Drawn]] = {}
 
 
@@ -189,13 +217,43 @@ def _run(handshake: str, faults: str) -> tuple[str, Simulator, Book, str]:
     return status, simulator, book, words
 
 
+def _end(status: str, as_planned: bool, answers: bool) -> str:
+    if status == Status.EXECUTED:
+        return "A" if as_planned else "D"
+    if status == Status.ENDED:
+        return "A" if as_planned else "C"
+    return "C" if status == Status.UNCONFIRMED and not answers else "B"
+
+
+def _vertex(machine: Machine, place: float) -> tuple[int, Instruction]:
+    """Return the first instruction that cuts within a stroke, and the program's bytes before it."""
+    parts = choice.prepared(made_ready(PROGRAMS[machine.language], machine), machine).parts
+    before = len(b"$I\n") if machine.language == "gcode" else 0
+    for part in parts:
+        if part.stroke == int(STROKES * place) and _CUTS.match(part.data):
+            return before, part
+        before += len(part.data)
+    raise AssertionError(place)
+
+
+def _spec(cell: Cell, machine: Machine) -> str:
+    job = made_ready(PROGRAMS[machine.language], machine)
+    before, part = _vertex(machine, cell.place)
+    digit = _CUTS.match(part.data)
+    assert digit
+    return FAULTS[cell.fault].format(
+        strokes=int(STROKES * cell.place) + 0.4,
+        bytes=int(len(job.data) * cell.place),
+        vertex=before,
+        length=len(part.data),
+        digit=before + digit.start(1),
+    )
+
+
 def run(cell: Cell) -> Outcome:
     """Let it happen."""
     machine = machine_of(cell.handshake)
-    job = made_ready(PROGRAMS[machine.language], machine)
-    spec = FAULTS[cell.fault].format(
-        strokes=int(STROKES * cell.place) + 0.4, bytes=int(len(job.data) * cell.place)
-    )
+    job, spec = made_ready(PROGRAMS[machine.language], machine), _spec(cell, machine)
     status, simulator, book, words = _run(cell.handshake, spec)
     wanted = planned(cell.handshake)
     simulator.advance()
@@ -206,12 +264,7 @@ def run(cell: Cell) -> Outcome:
     seconds = [0.0] * (job.strokes + 2)
     for part in job.parts:
         seconds[part.stroke] += part.seconds
-    if status == Status.EXECUTED:
-        end = "A" if drawn == wanted else ""
-    elif status == Status.UNCONFIRMED and not machine.serial.answers:
-        end = "C"
-    else:
-        end = "B"
+    end = _end(status, drawn == wanted, machine.serial.answers)
     traffic = simulator.device.traffic
     return Outcome(
         end,
@@ -224,5 +277,5 @@ def run(cell: Cell) -> Outcome:
         max(seconds),
         simulator.device.carriage.tally.moving - before,
         traffic.split,
-        0 if cell.fault == "overflow" else traffic.overruns,
+        0 if cell.fault in DROPPED else traffic.overruns,
     )

@@ -62,7 +62,7 @@ def test_a_program_arrives_byte_for_byte_over_a_network_serial_port(
     with serve_rfc2217(simulator) as url, open_port(url, cutter) as port:
         delivery = send(PROGRAM, port, cutter)
     traffic = simulator.device.traffic
-    assert delivery.status is Status.EXECUTED
+    assert delivery.status.is_done
     assert traffic.overruns == 0
     assert without_questions(bytes(traffic.program)) == as_sent(PROGRAM, cutter)
 

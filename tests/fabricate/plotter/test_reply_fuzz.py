@@ -26,7 +26,9 @@ KINDS = {
     ("silhouette-like", "gp-gl"): GPGL,
 }
 HP = b"0\r 1024\r 255\r 16\r 400,400,0\r 0,400,0\r0\r -1,,\r \x06 \x13 \x11 \r 8\r"
-OTHERS = rb"ok error:20 <Idle|MPos:0.000,0.000,0.000|FS:0,0> <Run> ALARM:3 [OPT:V,15,128] Grbl"
+OTHERS = (
+    rb"ok [GC:G1] error:20 <Idle|MPos:0.000,0.000,0.000|FS:0,0> <Run> ALARM:3 [OPT:V,15,128] Grbl"
+)
 STATUS = b"0\x03 1\x03 2\x03 \x03 \xff\x00 \n"
 WORDS = [*HP.split(b" "), *STATUS.split(b" "), *(each + b"\r\n" for each in OTHERS.split(b" "))]
 

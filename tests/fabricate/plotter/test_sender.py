@@ -82,6 +82,38 @@ def test_a_machine_that_does_not_answer_ends_as_sent_not_confirmed(
     assert simulator.device.idle
 
 
+@pytest.mark.parametrize(
+    ("handshake", "reports", "status", "words"),
+    [
+        ("esc-b", False, Status.EXECUTED, "has reported no byte lost"),
+        ("enq-ack", False, Status.EXECUTED, "has reported no byte lost"),
+        ("dtr", True, Status.EXECUTED, "has reported no byte lost"),
+        ("dtr", False, Status.ENDED, "this machine does not say: look at the sheet"),
+        ("xon-xoff", False, Status.ENDED, "this machine does not say: look at the sheet"),
+    ],
+)
+def test_executed_is_said_only_where_the_machine_would_have_told_of_a_lost_byte(
+    handshake: str, reports: bool, status: Status, words: str, machine: Make, plugged: Plug
+) -> None:
+    cutter = machine(handshake=handshake, reports_losses=reports)
+    with open_port(plugged(Simulator(cutter)), cutter) as port:
+        delivery = send(SQUARE, port, cutter)
+    assert delivery.status is status
+    assert words in delivery.proved
+
+
+@pytest.mark.parametrize("handshake", ["esc-b", "enq-ack"])
+def test_a_lever_that_is_raised_stops_the_delivery_with_a_sentence(
+    handshake: str, machine: Make, plugged: Plug
+) -> None:
+    cutter = machine(handshake=handshake)
+    simulator = Simulator(cutter, faults=parse("lever@3strokes"))
+    with open_port(plugged(simulator), cutter) as port:
+        with pytest.raises(PlotterError, match=r"lever|not confirmed|not acknowledged"):
+            send(LONG, port, cutter)
+        assert port.clock.now() < 60
+
+
 def test_silence_at_the_end_is_not_taken_for_success(machine: Make, plugged: Plug) -> None:
     dying = machine(handshake="xon-xoff")
     simulator = Simulator(dying, faults=parse(f"silence@{len(SQUARE) + 2 * len(QUESTION) - 1}"))
@@ -227,7 +259,7 @@ def test_a_person_pauses_where_the_tool_is_up_and_goes_on(
         program = LONG[: LONG.index(b"PU3000")]
         delivery = send(program, port, cutter, progress=pause, wish=wish)
     assert seen == [False]
-    assert delivery.status is Status.EXECUTED
+    assert delivery.status.is_done
     assert delivery.seconds > 600
 
 
@@ -280,7 +312,7 @@ def test_no_more_than_three_seconds_or_one_stroke_are_in_flight(
             unsent = simulator.queued + simulator.line.sending
             waiting.append(simulator.device.size - simulator.device.free + unsent)
 
-        assert send(LONG, port, roomy, progress=look).status is Status.EXECUTED
+        assert send(LONG, port, roomy, progress=look).status.is_done
     two_strokes = 2 * len(b"PU19900,0;PD19900,4000;PD19900,0;")
     assert len(b"PD19900,0;") < max(waiting) <= two_strokes
 

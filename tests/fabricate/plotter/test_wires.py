@@ -34,7 +34,7 @@ def test_a_program_arrives_byte_for_byte_over_a_real_wire(
     with serve(simulator) as url, open_port(url, cutter) as port:  # type: ignore[attr-defined]
         delivery = send(PROGRAM, port, cutter)
     traffic = simulator.device.traffic
-    assert delivery.status is Status.EXECUTED
+    assert delivery.status.is_done
     assert traffic.overruns == 0
     assert without_questions(bytes(traffic.program)) == as_sent(PROGRAM, cutter)
     assert len(simulator.sheet.strokes[Face.FRONT]) == PROGRAM.count(b"PU") - 1

@@ -56,7 +56,7 @@ def test_certain_strokes_are_drawn_and_drawn_strokes_were_written_down(
     simulator = Simulator(cutter)
     book = Book(simulator)
     with open_port(plugged(simulator), cutter) as port:
-        assert send(PROGRAM, port, cutter, book=book).status is Status.EXECUTED
+        assert send(PROGRAM, port, cutter, book=book).status.is_done
     assert (book.sent, book.acked) == (STROKES, STROKES)
     doubtful = max(sent - acked for sent, acked in book.steps)
     assert doubtful < STROKES / 3

@@ -12,19 +12,26 @@ from math import ceil
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
-from foldmill_fabricate.plotter.handshakes.hp import MET, HpSession
+from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
+from foldmill_fabricate.plotter.handshakes.losses import lost
 from foldmill_fabricate.plotter.handshakes.proving import Proving
 from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.program import Job
 from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
 from foldmill_fabricate.plotter.witness import QUESTION
 
-LENT = 16
+LENT = 32
 """Bytes of the reserve, a quarter of it at most, that may be used while an answer travels: by the
-time they arrive the machine has taken as many out. Should it not, three quarters are still free."""
+time they arrive the machine has taken as many out. Besides, as many as it has taken by the model
+since the answer, another quarter at most. Should it not, half the reserve is still free."""
 _MOST_COLLISIONS = 20
 _LONGEST_NAP = 0.25
 """s between two questions while nothing fits."""
+_SHORTEST_NAP = 0.02
+"""s between two of them while motion is waited for that takes longer than modelled."""
+_FRESH = 0.3
+"""s for which the model is believed after an answer: an answer's way is longer than the line ought
+to wait, and three seconds in flight are counted by the model anyway."""
 _OFTEN = 0.4
 """s between two questions while all fits: so that silence is noticed."""
 _NAP = 0.02
@@ -56,6 +63,8 @@ class Asked(Proving):
         """Positions heard before the open question; questions in a row that met one."""
         self._progress = self._changed = self._asked_when = session.clock.now()
         """When a unit was last seen to leave the buffer; when an answer last differed."""
+        self._left_at = self._seen_at = session.clock.now()
+        """When the last of them left it, by the model, and when it was asked for before."""
         self._cleaned = session.clock.now()
         """When ESC.E was answered last."""
         self._due = session.clock.now()
@@ -76,6 +85,9 @@ class Asked(Proving):
         self.session.settle()
         self._look()
         while not self._fits(number):
+            self._rest(number)
+            if self._fits(number):
+                break
             self._ask()
             self._wait()
             if not self._fits(number) and self._unclean and self._is_late:
@@ -88,7 +100,7 @@ class Asked(Proving):
         following = self._following(number)
         if self._unclean and (following > 3 * self._cover or waited > _OFTEN or self._is_late):
             self._ask(of_error=True)
-        elif following < self._cover or waited > _OFTEN:
+        elif waited > _OFTEN or (following < self._cover and not self._unripe(number + 1)):
             self._ask()  # what follows on the line covers the time until the answer
 
     def idle(self) -> None:
@@ -105,10 +117,6 @@ class Asked(Proving):
             self._ask()
             self._wait()
 
-    def lost(self) -> str:
-        """Ask for the I/O error."""
-        return _lost(self.session.io_error())
-
     @property
     def _unclean(self) -> bool:
         return self.witness.executed > self._clean
@@ -124,9 +132,24 @@ class Asked(Proving):
         sums = self.sums
         return self._free - (sums.bytes[self.sent] - sums.bytes[self._free_at])
 
+    @property
+    def _gone(self) -> int:
+        """Bytes of the program that had left the buffer by the last answer."""
+        return max(0, self.sums.bytes[self._free_at] - (self.session.buffer - self._free))
+
+    @property
+    def _taken(self) -> int:
+        """Bytes that have left it since by the model, a quarter of the reserve at most."""
+        since = min(self.session.clock.now() - self._seen_at, _FRESH)
+        gone = self._gone
+        by_now = self.sums.byte_at(self.sums.at_byte(gone) + since)
+        return min(by_now - gone, self._reserve // 4)
+
     def _fits(self, number: int) -> bool:
         length = len(self.sums.parts[number].data)
-        return length + self._kept <= self._bound and self.sums.may_follow(self._done, number)
+        if length + self._kept > self._bound + self._taken:
+            return False
+        return self.sums.may_follow(self._done, number) or self._is_ripe(number)
 
     def _following(self, number: int) -> int:
         """Return the bytes that could follow unit ``number`` without another answer."""
@@ -218,11 +241,18 @@ class Asked(Proving):
         done = max(self._done, bisect_right(self.sums.bytes, gone) - 1)
         if done > self._done or self._done == self.sent:
             self._progress = self.session.clock.now()
-        self._done = done
+        if done > self._done:
+            self._left_at = self._when_left(done)
+        self._done, self._seen_at = done, self._asked_when
+
+    def _when_left(self, done: int) -> float:
+        """Return when so many units had left the buffer: as modelled, within what was seen."""
+        modelled = self._left_at + self.sums.in_flight(self._done, done)
+        return min(max(modelled, self._seen_at), self.session.clock.now())
 
     def _judge(self, error: int) -> None:
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
-        told = _lost(0 if error == MET else error)
+        told = lost(0 if error == MET else error)
         if told:
             raise PlotterError(told)
         self._clean, self._cleaned = self._proved, self.session.clock.now()
@@ -231,7 +261,13 @@ class Asked(Proving):
         clock = self.session.clock
         if clock.now() < self._progress + PATIENCE + SLACK * self.ahead:
             return
-        if self.session.paused():
+        status = self.session.status()
+        if status & LEVER_UP:
+            raise PlotterError(
+                "The lever of the pinch wheels is up, and the sheet may have moved. Lower it, and "
+                "look at the sheet before anything is cut again."
+            )
+        if status & PAUSED:
             self._progress = clock.now()  # a person's doing; waiting costs nothing
             return
         raise NoAnswer(
@@ -240,21 +276,59 @@ class Asked(Proving):
             f"than its profile says. Its own display may say why."
         )
 
+    def _rest(self, number: int) -> None:
+        """Wait until motion that is in flight will have been executed, by the model."""
+        if self._asked is not None or not self._is_held_back(number):
+            return
+        now = self.session.clock.now()
+        self.session.rest_until(min(self._ripe(number), now + _LONGEST_NAP))
+
     def _nap(self, number: int) -> None:
         """Do not ask a hundred times a second while a long motion, or a person, is waited for."""
         if self._fits(number):
             return
-        clock, length = self.session.clock, len(self.sums.parts[number].data)
-        nap = _NAP * (clock.now() - self._changed)
-        if length + self._reserve <= self._bound:
-            nap = (self.sums.in_flight(self._done, number + 1) - IN_FLIGHT) / 2
-        self.session.rest_until(clock.now() + min(_LONGEST_NAP, nap))
+        now = self.session.clock.now()
+        nap = _NAP * (now - self._changed)
+        if self._is_held_back(number):
+            if self._ripe(number) > now:
+                return
+            excess = self.sums.in_flight(self._done, number + 1) - IN_FLIGHT
+            nap = max(_SHORTEST_NAP, excess / 2)  # it is slower than the model
+        else:
+            nap = max(nap, self._seen_at + self._until_free(number) - now)
+        self.session.rest_until(now + min(_LONGEST_NAP, nap))
 
+    def _is_ripe(self, number: int) -> bool:
+        """Whether unit ``number`` may follow by the model, which a fresh answer bears out."""
+        now = self.session.clock.now()
+        return self._ripe(number) <= now < self._seen_at + _FRESH
 
-def _lost(error: int) -> str:
-    if not error:
-        return ""
-    return (
-        f"The machine reports that bytes were lost or garbled on the line (error {error}). Check "
-        "the cable and the baud rate."
-    )
+    def _until_free(self, number: int) -> float:
+        """Return how long after the last answer it is to be asked if unit ``number`` finds room.
+
+        That is when the model says so, where it may be believed; else after half of that motion.
+        """
+        gone = self._gone
+        missing = len(self.sums.parts[number].data) + self._kept - self._bound
+        motion = self.sums.at_byte(gone + missing) - self.sums.at_byte(gone)
+        return motion if missing <= self._reserve // 4 else motion / 2
+
+    def _unripe(self, number: int) -> bool:
+        """Whether a question now would be answered before unit ``number`` may follow."""
+        if number >= len(self.sums.parts) or not self._is_held_back(number):
+            return False
+        return self._ripe(number) > self.session.clock.now() + self.session.round_trip
+
+    def _is_held_back(self, number: int) -> bool:
+        """Whether unit ``number`` waits for motion, not for bytes."""
+        return len(self.sums.parts[number].data) + self._reserve <= self._bound
+
+    def _ripe(self, number: int) -> float:
+        """Return when enough motion will have been executed for unit ``number``, by the model.
+
+        What was under way when it was last asked is taken for done by then at the earliest.
+        """
+        sums, done = self.sums, self._done
+        under_way = sums.in_flight(done, min(done + 1, len(sums.parts)))
+        began = max(self._left_at, self._seen_at - under_way)
+        return began + sums.in_flight(done, sums.makes_way(number))

@@ -59,7 +59,7 @@ def session(port: Any, machine: Machine, clock: Clock, wish: Wish | None = None)
 def prepared(job: Job, machine: Machine) -> Job:
     """Return the job with questions between strokes, where the machine answers them in order."""
     if machine.serial.handshake == "grbl":
-        return watched(job, counted.QUESTION)
+        return watched(job, *counted.QUESTIONS)
     if machine.language == "hpgl" and machine.serial.answers:
         return watched(job)
     return job

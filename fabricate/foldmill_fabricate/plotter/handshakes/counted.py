@@ -1,7 +1,9 @@
 """GRBL: count the characters that wait in its buffer; a line has left it when its ok comes.
 
 ``ok`` says that a line is taken, not done. ``G4P0`` between strokes is answered when all before it
-is done: that proves them. The end is its ok, then Idle, at the program's last place.
+is done. Behind it ``$G`` has an answer of its own: the oks before that are counted, and where one
+is missing a line was lost. Both together prove the strokes before. The end is the same, then Idle,
+at the program's last place.
 """
 
 from __future__ import annotations
@@ -15,7 +17,11 @@ from foldmill_fabricate.plotter.handshakes.grbl import GrblSession
 from foldmill_fabricate.plotter.program import Job
 from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
 
-QUESTION = b"G4P0\n"
+QUESTIONS = (b"G4P0\n", b"$G\n")
+_WHOLE = (
+    "Every line was taken and counted, and the tool stands where the program ends. A digit that "
+    "became another on the line would not be told."
+)
 _OFTEN = 0.4
 """s between two statuses."""
 _NEAR = 0.01
@@ -30,7 +36,9 @@ class Counted:
         self._room = session.buffer - 1
         self._open: deque[int] = deque()
         """Lines without an ok."""
-        self._oks = session.oks
+        self._marks: deque[int] = deque()
+        """Lines ``$G`` without an answer."""
+        self._before = self._oks = session.oks
         self._sent = self._executed = 0
         self._statuses = session.statuses
         self._due: float | None = None
@@ -55,6 +63,8 @@ class Counted:
     def written(self, number: int) -> None:
         """Count its characters until its ok."""
         self._open.append(number)
+        if self._sums.parts[number].data == QUESTIONS[-1]:
+            self._marks.append(number)
         self._sent = number + 1
         self._hear()
 
@@ -66,13 +76,13 @@ class Counted:
     def confirm(self) -> Ending:
         """Wait for the ok of a last G4, then for Idle, then compare the place."""
         session, job = self._session, self._job
-        while self._open:
+        while self._open or self._marks:
             self._pass()
-        session.write(QUESTION)
-        before = self._oks
-        while session.oks == before:
+        for question in QUESTIONS:
+            session.write(question)
+        self._marks.append(self._sent + 1)
+        while self._marks:
             self._pass()
-        self._oks = session.oks
         self._executed = len(self._sums.parts)
         limit = session.clock.now() + PATIENCE
         while not session.status().startswith("Idle"):
@@ -85,7 +95,7 @@ class Counted:
                 f"{job.end[0]:g}, {job.end[1]:g}."
             )
             return Ending(Status.FAULT, at, None, fault)
-        return Ending(Status.EXECUTED, at, 0)
+        return Ending(Status.EXECUTED, at, 0, proved=_WHOLE)
 
     def _fits(self, number: int) -> bool:
         sums = self._sums
@@ -106,10 +116,19 @@ class Counted:
         if session.trouble:
             raise PlotterError(f"{session.trouble} That was by line {self._sent} of the program.")
         while self._open and self._oks < session.oks:
-            self._oks, number, self._progress = self._oks + 1, self._open.popleft(), now
-            if self._sums.parts[number].asks:
-                self._executed = number + 1
+            self._oks, self._progress = self._oks + 1, now
+            self._open.popleft()
+        while self._marks and session.marks:
+            self._prove(self._marks.popleft(), session.marks.popleft() - self._before)
         self._look(now)
+
+    def _prove(self, number: int, oks: int) -> None:
+        if oks != number:
+            raise PlotterError(
+                f"Before line {number + 1} of the program the machine took {oks} lines: something "
+                "was lost on the line."
+            )
+        self._executed = min(number + 1, self._sent)
 
     def _look(self, now: float) -> None:
         """Ask for a status now and then: a machine gone silent is noticed, and one that stands."""

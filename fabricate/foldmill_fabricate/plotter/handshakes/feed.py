@@ -6,7 +6,7 @@ most three seconds of motion or one stroke, whichever is longer: so that stoppin
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from itertools import accumulate
 from typing import Protocol
 
@@ -58,11 +58,30 @@ class Sums:
         """Return the motion of units ``done`` … ``sent`` - 1, s."""
         return self.seconds[sent] - self.seconds[done]
 
+    def at_byte(self, byte: int) -> float:
+        """Return the motion before a byte of the program, s, evenly spread within a unit."""
+        number = min(bisect_right(self.bytes, byte) - 1, len(self.parts) - 1)
+        share = (byte - self.bytes[number]) / len(self.parts[number].data)
+        return self.seconds[number] + share * self.parts[number].seconds
+
+    def byte_at(self, seconds: float) -> int:
+        """Return the byte of the program before which there is so much motion, s."""
+        number = min(bisect_right(self.seconds, seconds) - 1, len(self.parts) - 1)
+        part = self.parts[number]
+        share = (seconds - self.seconds[number]) / part.seconds if part.seconds else 1.0
+        return self.bytes[number] + int(min(share, 1.0) * len(part.data))
+
     def may_follow(self, done: int, number: int) -> bool:
         """Whether the next unit keeps what is in flight short, or within one stroke."""
         if done >= number or self.in_flight(done, number + 1) <= IN_FLIGHT:
             return True
         return self.parts[done].stroke == self.parts[number].stroke
+
+    def makes_way(self, number: int) -> int:
+        """Return how many units must be done for unit ``number`` to follow."""
+        enough = bisect_left(self.seconds, self.seconds[number + 1] - IN_FLIGHT)
+        same = bisect_left(self.parts, self.parts[number].stroke, key=lambda part: part.stroke)
+        return min(enough, same, number)
 
     def reach(self, done: int) -> int:
         """Return a number up to which units may follow at most; little above the truth.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Callable
 
 from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
@@ -23,6 +24,8 @@ class GrblSession(Session):
     ends = b"\n"
     oks = 0
     """Lines answered ok so far."""
+    marks: deque[int]
+    """How many had been when each ``$G`` was answered."""
     state = ""
     """The last status: Idle, Run, Hold …; "" for none."""
     statuses = 0
@@ -36,6 +39,7 @@ class GrblSession(Session):
 
     def open(self) -> None:
         """Find it idle, have it drop half a line, and learn its buffer."""
+        self.marks = deque()
         super().open()
         if not self.status(_WELCOME):
             raise NoAnswer(
@@ -72,6 +76,8 @@ class GrblSession(Session):
         text = line.decode("ascii", "replace").strip()
         if text == "ok":
             self.oks += 1
+        elif text.startswith("[GC:"):
+            self.marks.append(self.oks)
         elif text.startswith("<"):
             self._read(text)
         elif text.startswith("[OPT"):
@@ -91,11 +97,13 @@ class GrblSession(Session):
     def abort(self, unsent: int | None) -> str:  # noqa: ARG002
         """Hold, so that the place is not lost; drop all; lift the tool."""
         self.port.write(_HOLD)
-        before = self.clock.now()
-        while self.clock.now() < before + _WELCOME:
+        began, said = self.clock.now(), self.statuses
+        while self.clock.now() < began + _WELCOME:
             if self._state_again().startswith(("Hold:0", "Idle", "Alarm")):
                 break
-        self._reset()
+            if self.statuses == said and self.clock.now() > began + SILENCE / 2:
+                break  # it is dead, or cannot be heard
+        self._reset(_WELCOME if self.statuses > said else SILENCE / 2)
         if b"Z" in self.lift:
             self.port.write(self.lift)
         return "The machine was told to hold, and to drop what it has."
@@ -108,11 +116,11 @@ class GrblSession(Session):
             self._more()
         return self.state
 
-    def _reset(self) -> None:
+    def _reset(self, patience: float = _WELCOME) -> None:
         """Reset, and wait until it is back."""
         self.trouble = ""
         self.port.write(_RESET)
-        limit = self.clock.now() + _WELCOME
+        limit = self.clock.now() + patience
         while not self.trouble and self.clock.now() < limit:
             self._more()
 

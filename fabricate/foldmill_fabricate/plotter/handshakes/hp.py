@@ -13,14 +13,14 @@ from collections import deque
 from foldmill_fabricate.plotter.errors import NoAnswer
 from foldmill_fabricate.plotter.session import SILENCE, Session
 
-_FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
+FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
 _FORGET_ANSWERS, _FORGET = b"\x1b.J", b"\x1b.K"
 MET = 10
 """I/O error of a question that met another answer: it was dropped, and nothing else."""
 DROPS = frozenset({"esc-b", "enq-ack"})
 """Handshakes of machines that drop what they hold, half an instruction too, at ESC.K."""
-_PAUSED = 16 | 32
-"""Bits of the extended status: paused by a key, or a lever up."""
+PAUSED, LEVER_UP = 16, 32
+"""Bits of the extended status: paused by a key; the pinch wheels off the sheet."""
 _NOISE = bytes((0x11, 0x13, 0x0A))
 """XON, XOFF and line feed among the answers."""
 _ENQ, _ACK = b"\x05", b"\x06"
@@ -61,6 +61,12 @@ class HpSession(Session):
         """Whether the machine drops what it holds at ESC.K."""
         return self.machine.serial.handshake in DROPS
 
+    @property
+    def reports(self) -> bool:
+        """Whether the machine is asked by ESC.E if bytes were lost."""
+        serial = self.machine.serial
+        return serial.answers and (self.discards or serial.reports_losses)
+
     def _meet(self) -> None:
         asked = self.clock.now()
         if self.control(_ERROR, _WELCOME) is None:
@@ -73,7 +79,7 @@ class HpSession(Session):
 
     def ask_free(self) -> None:
         """Ask for the free bytes; ``answer`` brings them."""
-        self.send(_FREE)
+        self.send(FREE)
 
     def ask_error(self) -> None:
         """Ask for the I/O error; ``answer`` brings it."""
@@ -89,15 +95,14 @@ class HpSession(Session):
         text = self.answer(self.line_free + patience)
         return int(text) if text is not None and text.isdigit() else None
 
-    def io_error(self, deadline: float | None = None) -> int:
-        """Return the machine's I/O error; 0 for none, for silence, and for questions that met."""
-        patience = SILENCE if deadline is None else deadline - self.clock.now()
-        found = self.control(_ERROR, patience) or 0
+    def io_error(self) -> int | None:
+        """Return the machine's I/O error; None for silence, 0 for none, and where questions met."""
+        found = self.control(_ERROR)
         return 0 if found == MET else found
 
-    def paused(self) -> bool:
-        """Whether somebody has paused the machine at its own keys."""
-        return bool((self.control(_STATUS) or 0) & _PAUSED)
+    def status(self) -> int:
+        """Return the extended status, a sum of bits; 0 for silence."""
+        return self.control(_STATUS) or 0
 
     def answer(self, deadline: float) -> str | None:
         """Return the next answer to device control; None for none by then."""

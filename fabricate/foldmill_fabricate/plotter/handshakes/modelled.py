@@ -71,12 +71,14 @@ class Modelled(Proving):
     def drain(self) -> None:
         """Wait until the model says all is done, where the machine will not say it."""
         self._wait_until_sent(0)
+        self.losses.settle()
         if not self.answers:
             self.session.rest_until(self._finished)
 
     def _settle(self) -> None:
         self.witness.hear()
         self.witness.overdue()
+        self.losses.look()
         now = self.session.clock.now()
         while self._ends and self._ends[0][0] <= now:
             self._believed += [end for end in (self._ends.popleft(),) if self._asks(end[1])]

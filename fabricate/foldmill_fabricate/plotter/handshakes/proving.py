@@ -5,9 +5,16 @@ from __future__ import annotations
 from foldmill_fabricate.plotter.endings import Ending, Status
 from foldmill_fabricate.plotter.handshakes.feed import NAP, SLACK, Sums
 from foldmill_fabricate.plotter.handshakes.hp import HpSession
+from foldmill_fabricate.plotter.handshakes.losses import Losses
 from foldmill_fabricate.plotter.program import Job
 from foldmill_fabricate.plotter.session import PATIENCE
 from foldmill_fabricate.plotter.witness import QUESTION, Witness, is_off, position, reported
+
+_WHOLE = "Every stroke ended where it should, and the machine has reported no byte lost."
+_ENDS = (
+    "Every stroke ended where it should, and no instruction was refused. Whether one inside a "
+    "stroke was lost on the line, this machine does not say: look at the sheet."
+)
 
 
 class Proving:
@@ -16,6 +23,7 @@ class Proving:
     def __init__(self, session: HpSession, job: Job) -> None:
         self.session, self.job, self.sums = session, job, Sums(job)
         self.witness = Witness(session, job)
+        self.losses = Losses(session, self.witness)
         self.sent = 0
         """Units written."""
 
@@ -27,7 +35,7 @@ class Proving:
     @property
     def acked(self) -> int:
         """Strokes that are known to be executed: all before this one."""
-        return self.witness.acked
+        return self.witness.strokes_before(self.losses.certain)
 
     @property
     def answers(self) -> bool:
@@ -65,14 +73,16 @@ class Proving:
         if proof is None:
             return Ending(Status.UNCONFIRMED)
         place, found = proof
+        lost = self.losses.told()
+        if lost is None:
+            return Ending(Status.UNCONFIRMED)
+        fault = _fault(self.job, place, found) or lost
         error = int(found) if found.isdigit() else None
-        fault = _fault(self.job, place, found) or self.lost()
-        status = Status.FAULT if fault else Status.EXECUTED
-        return Ending(status, position(place), error, fault)
-
-    def lost(self) -> str:
-        """Say what the line has lost, as far as the machine tells that."""
-        return ""
+        if fault:
+            return Ending(Status.FAULT, position(place), error, fault)
+        if not self.session.reports:
+            return Ending(Status.ENDED, position(place), error, proved=_ENDS)
+        return Ending(Status.EXECUTED, position(place), error, proved=_WHOLE)
 
 
 def _fault(job: Job, place: str, error: str) -> str:

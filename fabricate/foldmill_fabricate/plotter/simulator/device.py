@@ -236,8 +236,8 @@ class Device:
     def _meet(self, now: float) -> None:
         for fault in self.schedule.over(now):
             self._end(fault, now)
-        received, strokes = len(self.traffic.received), self.carriage.tally.strokes
-        for fault in self.schedule.due(received, strokes, now):
+        received, program = len(self.traffic.received), len(self.traffic.program)
+        for fault in self.schedule.due(received, program, self.carriage.tally.strokes, now):
             self._strike(fault, now)
 
     def _strike(self, fault: Fault, now: float) -> None:

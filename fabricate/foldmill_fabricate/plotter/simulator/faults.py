@@ -1,10 +1,11 @@
 """Faults on demand: what goes wrong with the simulated machine, where, how much and how long.
 
 ``NAME@PLACE[xAMOUNT][:DURATION]``, several with commas between them, such as ``silence@5000``,
-``power@2.5strokes:30s`` or ``garbage@800x4,slow@12sx5``. The place is a number
-of bytes received (``5000`` or ``5000bytes``), of strokes executed (``2strokes``; ``2.5strokes`` is
-half through the first line of the third) or a time of the simulator's clock (``12s``). Without a
-duration a fault lasts for ever. The same faults do the same to the same bytes.
+``power@2.5strokes:30s`` or ``garbage@800x4,slow@12sx5``. The place is a number of bytes received
+(``5000`` or ``5000bytes``), of those of the program (``5000program``: without device control, and
+with what a sender asks in the program's own language), of strokes executed (``2strokes``;
+``2.5strokes`` is half through the first line of the third) or a time of the simulator's clock
+(``12s``). Without a duration a fault lasts for ever. The same faults do the same to the same bytes.
 """
 
 from __future__ import annotations
@@ -57,6 +58,7 @@ class Unit(StrEnum):
     """What a place is counted in."""
 
     BYTES = "bytes"
+    PROGRAM = "program"
     STROKES = "strokes"
     SECONDS = "s"
 
@@ -71,7 +73,7 @@ LASTING = frozenset(Trouble) - {
 _AMOUNTS = {Trouble.SLOW: 10.0} | dict.fromkeys(set(Trouble) - LASTING, 4.0)
 _NUMBER = r"\d+(?:\.\d+)?"
 _FORM = re.compile(
-    rf"(?P<name>[a-z]+)@(?P<at>{_NUMBER})(?P<unit>bytes|strokes|s)?"
+    rf"(?P<name>[a-z]+)@(?P<at>{_NUMBER})(?P<unit>bytes|program|strokes|s)?"
     rf"(?:x(?P<amount>{_NUMBER}))?(?::(?P<lasting>{_NUMBER})s?)?"
 )
 
@@ -152,9 +154,17 @@ class Schedule:
         """When the next one ends, s; infinite for never."""
         return min((end for end, _ in self._ends), default=inf)
 
-    def due(self, received: int, strokes: int, now: float) -> list[Fault]:
-        """Take and return those that begin now."""
-        reached = {Unit.BYTES: received, Unit.STROKES: strokes, Unit.SECONDS: now}
+    def due(self, received: int, program: int, strokes: int, now: float) -> list[Fault]:
+        """Take and return those that begin now.
+
+        received, program : bytes, and those of them that are the program's.
+        """
+        reached: dict[Unit, float] = {
+            Unit.BYTES: received,
+            Unit.PROGRAM: program,
+            Unit.STROKES: strokes,
+            Unit.SECONDS: now,
+        }
         found = [each for each in self._waiting if reached[each.unit] >= each.at]
         self._waiting = [each for each in self._waiting if each not in found]
         self._ends += [(now + each.lasting, each) for each in found if each.lasting < inf]

@@ -21,7 +21,10 @@ class Use:
     busy: float = 0.0
     """a byte was on its way"""
     missed: float = 0.0
-    """the line stood idle although the next whole instruction would have been taken"""
+    """the line stood idle although the next whole instruction would have been taken, and would not
+    have made more than three seconds in flight"""
+    unfilled: float = 0.0
+    """the same, with no regard to what is in flight"""
     questions: int = 0
     """bytes of device control among those sent"""
     program: int = 0
@@ -31,6 +34,11 @@ class Use:
     def utilisation(self) -> float:
         """Share of the time in which the line was busy or could have been, that it was busy."""
         return self.busy / (self.busy + self.missed) if self.busy else 0.0
+
+    @property
+    def filling(self) -> float:
+        """The same where only the buffer counts, which a sender leaves half empty on purpose."""
+        return self.busy / (self.busy + self.unfilled) if self.busy else 0.0
 
     @property
     def payload(self) -> float:
@@ -78,19 +86,24 @@ class Gauge:
         number = len(self._ends) - 1
         return number if number < len(self._lengths) else None
 
-    def needs(self, begun: int) -> int | None:
-        """Return the free bytes that the next instruction needs; None where none may go.
+    def needs(self) -> int | None:
+        """Return the free bytes that the next instruction needs; None where none is left."""
+        number = self._next
+        return None if number is None else self._lengths[number] + self._reserve
+
+    def missed(self, seconds: float, begun: int) -> None:
+        """Learn that the line stood idle for so long while there was room.
 
         begun : bytes of program, written since the gauge was made, that the machine has begun.
         """
         number = self._next
-        if number is None:
-            return None
-        if self._strokes and not self._may_go(number, bisect_right(self._ends, begun) - 1):
-            return None
-        return self._lengths[number] + self._reserve
+        self.use.unfilled += seconds
+        if number is not None and self._may_go(number, bisect_right(self._ends, begun) - 1):
+            self.use.missed += seconds
 
     def _may_go(self, number: int, done: int) -> bool:
+        if not self._strokes:
+            return True
         in_flight = self._seconds[number + 1] - self._seconds[min(done, number)]
         same = self._strokes[min(done, number)] == self._strokes[number]
         return same or in_flight <= MOST_IN_FLIGHT

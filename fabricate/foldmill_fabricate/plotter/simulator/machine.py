@@ -308,10 +308,10 @@ class Simulator:
         if self.line.sending:
             self.gauge.use.busy += spent
         elif self._has_room():
-            self.gauge.use.missed += spent
+            self.gauge.missed(spent, self.device.traffic.begun - self._begun_before)
 
     def _has_room(self) -> bool:
-        needs = self.gauge.needs(self.device.traffic.begun - self._begun_before)
+        needs = self.gauge.needs()
         if needs is None:
             return False
         if self.machine.serial.handshake == "xon-xoff":
