@@ -291,6 +291,11 @@ class Figures(_Value):
     seconds: float
     """by the machine's own speeds and accelerations"""
 
+    @property
+    def travel_gap(self) -> float | None:
+        """mm of travel above that bound; None where nobody looked for it."""
+        return round(self.travel - self.travel_bound, 3) if self.travel_bound else None
+
 
 class Plan(_Value):
     """Everything that is done to one sheet, and what it was made from."""

@@ -42,6 +42,8 @@ def travel_bound(
     if 2 * len(ends) > dense:
         return _tree(ends, start)
     spots, mates = _places(ends, back, start)
+    if len(mates) < 2:  # one stroke that returns
+        return 0.0
     return priced_trees.bound(priced_trees.Places(spots, mates, start is None), rounds)
 
 

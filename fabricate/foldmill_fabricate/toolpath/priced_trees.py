@@ -49,7 +49,8 @@ class Places:
                 across, up = x[one] - u[other], y[one] - v[other]
                 found = np.minimum(found, across * across + up * up)
         found[self.mates[one] == other] = 0.0
-        return np.sqrt(found)
+        away: Floats = np.sqrt(found)
+        return away
 
     def gaps_from(self, one: int) -> Floats:
         """Return the least distance (m,) of one place from each, mm; mates are not looked for."""
@@ -60,7 +61,8 @@ class Places:
                 across *= across
                 up *= up
                 found = np.minimum(found, across + up)
-        return np.sqrt(found)
+        away: Floats = np.sqrt(found)
+        return away
 
     @cached_property
     def _ways(self) -> list[tuple[Floats, Floats]]:

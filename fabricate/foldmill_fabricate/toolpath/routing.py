@@ -73,9 +73,7 @@ def _in_pieces(links: _Links, own: Indices, points: Floats, start: Floats | None
     order = _sorted(points, links.trails(), start)
     ways = np.array([points[[trail[0], trail[-1]]] for trail in order])
     plain = [(k, False) for k in range(len(order))]
-    return Route(
-        tuple(order), bound, sequence.travelled(ways, start, plain, returns=False) - bound
-    )
+    return Route(tuple(order), bound, sequence.travelled(ways, start, plain, returns=False) - bound)
 
 
 def _sorted(

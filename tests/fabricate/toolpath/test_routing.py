@@ -115,9 +115,9 @@ def test_a_drawing_in_several_pieces_is_drawn_whole_however_its_ends_are_joined(
     square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], float)
     cross = np.array([[0, 0], [2, 0], [4, 0], [2, 2], [2, -2]], float)
     parts = [
-        (square + (-20, 9), [[0, 1], [1, 2], [2, 3], [3, 0]]),
-        (square + (-30, 0), [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]),
-        (cross + (-10, 0), [[0, 1], [1, 2], [1, 3], [4, 1]]),
+        (square + np.array([-20, 9]), [[0, 1], [1, 2], [2, 3], [3, 0]]),
+        (square + np.array([-30, 0]), [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]),
+        (cross + np.array([-10, 0]), [[0, 1], [1, 2], [1, 3], [4, 1]]),
         miura(6, 7),
     ]
     sizes = np.cumsum([0, *(len(points) for points, _ in parts)])

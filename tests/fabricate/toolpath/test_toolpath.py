@@ -109,6 +109,8 @@ def test_rows_of_strokes_on_one_line_have_a_bound() -> None:
     assert travel_bound(list(ends), np.zeros(2)) == pytest.approx(2 * 39)
     assert travel_bound(list(ends), np.zeros(2), dense=10) == pytest.approx(2 * 39)
     assert travel_bound(list(ends[:1]), np.array([-4.0, 0])) == pytest.approx(4)
+    assert travel_bound(list(ends[:1]), None, returns=True) == 0
+    assert travel_bound(list(ends[:2]), None, returns=True) == pytest.approx(2)
 
 
 def test_a_knife_goes_there_and_back_without_lifting() -> None:
