@@ -70,10 +70,20 @@ def _in_pieces(links: _Links, own: Indices, points: Floats, start: Floats | None
     links.join_at_vertices(loops_only=len(few) == len(left))
     if len(few) < len(left) or links.loops().any():
         links.join_by_hops()
-    order = _sorted(points, links.trails(), start)
+    order = _sorted(points, _by_place(points, links.trails()), start)
     ways = np.array([points[[trail[0], trail[-1]]] for trail in order])
     plain = [(k, False) for k in range(len(order))]
     return Route(tuple(order), bound, sequence.travelled(ways, start, plain, returns=False) - bound)
+
+
+def _by_place(points: Floats, trails: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Return strokes by where they lie, whatever order and direction they were drawn in.
+
+    Of hops that are equally short the first is taken: then those side by side follow each other.
+    """
+    place = points.tolist()
+    turned = [min(trail, trail[::-1], key=lambda way: place[way[0]]) for trail in trails]
+    return sorted(turned, key=lambda way: (place[way[0]], place[way[-1]]))
 
 
 def _sorted(
