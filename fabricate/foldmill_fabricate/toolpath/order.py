@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +49,7 @@ def _ordered(strokes: Sequence[Stroke], start: Floats, returns: bool) -> list[St
 
 
 def _backwards(stroke: Stroke) -> Stroke:
-    return stroke.model_copy(update={"points": stroke.points[::-1]})
+    return replace(stroke, points=stroke.points[::-1])
 
 
 def travel(paths: Sequence[Floats], start: Floats) -> float:
