@@ -21,6 +21,7 @@ from pydantic import (
     SerializerFunctionWrapHandler,
     model_serializer,
 )
+from pydantic.dataclasses import dataclass
 
 from foldmill.finding import Finding
 from foldmill_fabricate.ladders import Coupon
@@ -84,11 +85,13 @@ def _without(written: dict[str, Any], **usual: object) -> dict[str, Any]:
     }
 
 
-class Stroke(_Value):
+@dataclass(frozen=True, slots=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
+class Stroke:
     """One motion with the tool down, once along it. A closed stroke ends where it begins.
 
     With r repeats an open stroke is followed there and back, r times in all; a closed one is gone
-    round r times and then on by the operation's overcut. The tool is not lifted in between.
+    round r times and then on by the operation's overcut. The tool is not lifted in between. Large
+    sheets have hundreds of thousands: with slots each takes half the memory.
     """
 
     points: tuple[XY, ...] = Field(min_length=2)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +59,7 @@ def by_middles(strokes: Sequence[Stroke], start: Floats) -> tuple[Stroke, ...]:
 
 
 def _backwards(stroke: Stroke) -> Stroke:
-    return stroke.model_copy(update={"points": stroke.points[::-1]})
+    return replace(stroke, points=stroke.points[::-1])
 
 
 def travel(paths: Sequence[Floats], start: Floats) -> float:

@@ -59,6 +59,8 @@ def prove_programs(plan: Plan, programs: Mapping[str, bytes], fit: Fit | None) -
         findings += [*replayed.trace.findings, *outside(plan, file.name, replayed.trace)]
         findings += [*replayed.steering, *pushed(plan, file.name, replayed.trace)]
         findings += _drawing_findings(plan, replayed, strokes, fit)
+        _ = replayed.drawing.deviation
+        replayed.drawing.forget()
     return ProgramProof(tuple(replays), tuple(findings))
 
 
