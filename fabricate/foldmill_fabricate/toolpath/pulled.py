@@ -8,6 +8,7 @@ at the end from which it is pulled, and a repeat lifts and goes back instead of 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Literal
 
@@ -60,4 +61,4 @@ def _sides(way: Floats, pull: Pull) -> NDArray[np.int64]:
 
 
 def _as(stroke: Stroke, seen: Floats) -> Stroke:
-    return stroke.model_copy(update={"points": tuple((x, y) for x, y in seen.tolist())})
+    return replace(stroke, points=tuple((x, y) for x, y in seen.tolist()))
