@@ -29,7 +29,8 @@ class Look:
 
     letter: str = ""
     """One of B M V F U where the format says it by itself; else empty."""
-    layer: str = ""
+    layers: tuple[str, ...] = ()
+    """Names of the groups it lies in, and its own; the innermost last."""
     colour: Colour | None = None
     opacity: float = 1.0
     """0 to 1; 180 times it is how far a mountain or valley folds."""
