@@ -183,11 +183,20 @@ def _settled(
     if inner:
         message = f"{inner} lines of the outline have paper on both sides: they are inner cuts."
         said.append(Finding("import-inner-cut", Severity.INFO, "", message))
+    if not _has_creases(letters, sides):
+        message = "No line of the drawing is a crease: none is mountain, valley or unassigned."
+        remedy = "If some are, say which colour or layer they are by --as."
+        said.append(Finding("import-no-crease", Severity.WARNING, "", message, remedy))
     settled = [
         "B" if paper == 1 else "C" if letter in _CUT else letter
         for letter, paper in zip(letters, sides.tolist(), strict=True)
     ]
     return settled, said
+
+
+def _has_creases(letters: Sequence[str], sides: Indices) -> bool:
+    pairs = zip(letters, sides.tolist(), strict=True)
+    return any(letter in "MVU" and paper == 2 for letter, paper in pairs)
 
 
 def _refuse_bridges(sides: Indices, middle: Floats) -> None:

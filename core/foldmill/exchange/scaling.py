@@ -20,7 +20,7 @@ def factor(
     there is one. millimetres : what the file says. Raises UnreadableFile for a width of nothing.
     """
     if options.width is not None:
-        cut = [letter in "BC" for letter in letters]
+        cut = [letter in {"B", "C"} for letter in letters]
         own = lines[np.flatnonzero(cut)] if any(cut) else lines
         wide = float(np.ptp(own[..., 0]))
         if wide <= 0:
