@@ -13,6 +13,7 @@ import numpy as np
 
 from foldmill import planar
 from foldmill.errors import UnreadableFile
+from foldmill.exchange.graph import side_faces
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import Flags, Floats, Indices
 
@@ -157,8 +158,28 @@ def _sides(points: Floats, edges: Indices) -> Indices:
                 f"hangs on the rest there by one point only. Join it by another line, or leave it "
                 f"out."
             )
-    directed = {(a, b) for loop in loops for a, b in zip(loop, loop[1:] + loop[:1], strict=True)}
-    return np.array([((a, b) in directed) + ((b, a) in directed) for a, b in edges.tolist()])
+    _refuse_pinched(points, loops)
+    sides = {*side_faces(loops)}
+    return np.array([((a, b) in sides) + ((b, a) in sides) for a, b in edges.tolist()])
+
+
+def _refuse_pinched(points: Floats, loops: list[list[int]]) -> None:
+    """Refuse facets that hang on the others by a point only: they would fall off."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    left = side_faces(loops)
+    pairs = np.array([(f, left[b, a]) for (a, b), f in left.items() if (b, a) in left], np.intp)
+    pairs = pairs.reshape(-1, 2)
+    links = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(loops),) * 2)
+    count, group = connected_components(links, directed=False)
+    if count > 1:
+        fewest = np.argmin(np.bincount(group))
+        loop = loops[int(np.flatnonzero(group == fewest)[0])]
+        raise UnreadableFile(
+            f"The sheet falls into {count} parts that hang on each other by points only; one is "
+            f"near ({_xy(points[loop].mean(axis=0))}) mm. Join it by an edge, or leave it out."
+        )
 
 
 def _settled(
