@@ -146,6 +146,8 @@ def _refuse_apart(points: Floats, edges: Indices) -> None:
 def _sides(points: Floats, edges: Indices) -> Indices:
     """Return for each edge (E,) on how many of its sides there is paper."""
     loops = planar.polygons(points, edges)
+    if not loops:
+        raise UnreadableFile("The lines enclose no sheet.")
     for loop in loops:
         twice = (
             next((v for k, v in enumerate(loop) if v in loop[:k]), None)
@@ -164,7 +166,7 @@ def _sides(points: Floats, edges: Indices) -> Indices:
 
 
 def _refuse_pinched(points: Floats, loops: list[list[int]]) -> None:
-    """Refuse facets that hang on the others by a point only: they would fall off."""
+    """Refuse facets that hang on the others by points or bare lines only: they would fall off."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -177,8 +179,8 @@ def _refuse_pinched(points: Floats, loops: list[list[int]]) -> None:
         fewest = np.argmin(np.bincount(group))
         loop = loops[int(np.flatnonzero(group == fewest)[0])]
         raise UnreadableFile(
-            f"The sheet falls into {count} parts that hang on each other by points only; one is "
-            f"near ({_xy(points[loop].mean(axis=0))}) mm. Join it by an edge, or leave it out."
+            f"The sheet falls into {count} parts that hang on each other by points or lines only; "
+            f"one is near ({_xy(points[loop].mean(axis=0))}) mm. Join it by an edge, or leave it out."
         )
 
 
@@ -188,7 +190,6 @@ def _settled(
     """Return letters that fit the paper beside the lines, and what is to tell about it."""
     said: list[Finding] = []
     middle = points[edges].mean(axis=1)
-    _refuse_bridges(sides, middle)
     is_cut = np.isin(letters, [*_CUT])
     bare = (sides == 1) & ~is_cut
     if bare.any() and (is_cut & (sides == 1)).any():
@@ -218,15 +219,6 @@ def _settled(
 def _has_creases(letters: Sequence[str], sides: Indices) -> bool:
     pairs = zip(letters, sides.tolist(), strict=True)
     return any(letter in "MVU" and paper == 2 for letter, paper in pairs)
-
-
-def _refuse_bridges(sides: Indices, middle: Floats) -> None:
-    bridges = np.flatnonzero(sides == 0)
-    if len(bridges):
-        raise UnreadableFile(
-            f"The line at ({_xy(middle[bridges[0]])}) mm has paper on neither side: it joins parts "
-            f"that are not one sheet. Leave it out, or draw the outline about it."
-        )
 
 
 def _xy(place: Floats) -> str:

@@ -109,7 +109,7 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     "a part that hangs by a point": (
         "x.svg",
         svg('<path d="M0 0L-20 -20L-30 -10Z" stroke="black"/>'),
-        "2 parts that hang on each other by points only",
+        "2 parts that hang on each other by points or lines only",
     ),
     "a page of nothing": (
         "x.svg",
