@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from foldmill.exchange.keys import MILLIMETRES
 from foldmill.exchange.limits import DEFAULT, Limits
 from foldmill.exchange.options import Options
 from foldmill.exchange.scaling import factor
+from foldmill.exchange.unfolding import laid_flat
 from foldmill.finding import Finding, Severity
 
 _COUNTED = ("vertices_coords", "edges_vertices", "faces_vertices")
@@ -27,17 +29,20 @@ def read(content: bytes, options: Options, limits: Limits = DEFAULT) -> tuple[Fo
     """
     limits.check_size(len(content))
     data = json_text.parse(content.decode("utf-8", errors="replace"))
-    every = frames.frames_of(data)
-    for frame in every:
+    for frame in frames.frames_of(data):
         for key in _COUNTED:
             if isinstance(frame.get(key), list):
                 limits.check_lines(len(frame[key]))
+    notes: list[str] = []
+    flat = laid_flat(data, options.frame, notes)
+    options = options if flat is data else replace(options, frame=0)
+    data, every = flat, frames.frames_of(flat)
     said = _about_frames(every, options)
     unit = _unit(every, options)
     if _is_scaled(options):
         data = _scaled(data, every, options, unit)
     fold = fold_file.read_data(data, planarise=options.planarise, frame=options.frame)
-    notes = fold.meta["fold"]["notes"]
+    notes += fold.meta["fold"]["notes"]
     findings = [*said, *(Finding("import-note", Severity.INFO, "", note) for note in notes)]
     told = Fold(
         fold.pattern,

@@ -180,7 +180,7 @@ def _refuse_pinched(points: Floats, loops: list[list[int]]) -> None:
         loop = loops[int(np.flatnonzero(group == fewest)[0])]
         raise UnreadableFile(
             f"The sheet falls into {count} parts that hang on each other by points or lines only; "
-            f"one is near ({_xy(points[loop].mean(axis=0))}) mm. Join it by an edge, or leave it out."
+            f"one is near ({_xy(points[loop].mean(axis=0))}) mm. Join it by an edge, or drop it."
         )
 
 
