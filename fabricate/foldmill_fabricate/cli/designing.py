@@ -135,11 +135,21 @@ def show(
 
 
 @with_file_options
-def check(file: PatternFile, options: Any = None, as_json: AsJson = False) -> None:
+def check(
+    file: PatternFile,
+    flat: Annotated[
+        bool, typer.Option("--flat", help="Ask as well whether it folds flat, layers and all.")
+    ] = False,
+    options: Any = None,
+    as_json: AsJson = False,
+) -> None:
     """Check that a pattern folds: developable, planar, isometric, free of penetration."""
+    from foldmill.check import Report, flat_foldability, layers
     from foldmill.check import check as check_fold
 
-    report = check_fold(load(file, options))
+    fold = load(file, options)
+    rules = [check_fold, flat_foldability, layers] if flat else [check_fold]
+    report = Report.joined(rule(fold) for rule in rules)
     text = [figure_lines(report.figures), finding_lines(report.findings) or "no findings"]
     data = {"figures": dict(report.figures), "findings": finding_data(report.findings)}
     say(as_json, data, "\n".join(text))

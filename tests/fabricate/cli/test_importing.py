@@ -86,3 +86,12 @@ def test_a_wrong_option_is_one_sentence(foldmill: Run, words: tuple[str, ...], s
     assert code == 2
     assert said in err
     assert "Traceback" not in err
+
+
+def test_check_says_of_a_sheet_without_a_flat_state_what_is_wrong(foldmill: Run) -> None:
+    twist = str(SAMPLES / "ff_bad-twist-UNSAT.fold")
+    assert foldmill("check", twist)[0] == 0  # it is a sound pattern, and need not fold flat
+    code, out, _ = foldmill("check", twist, "--flat", "--width", "200")
+    assert code == 1
+    assert "layers would have to pass through each other" in out
+    assert foldmill("check", str(SAMPLES / "ff_pinwheel.fold"), "--flat")[0] == 0
