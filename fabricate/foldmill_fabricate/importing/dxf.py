@@ -63,7 +63,7 @@ def read(content: bytes, _options: Options, limits: Limits) -> Drawing:
         reader.looks,
         down=False,
         millimetres=_millimetres(content),
-        notes=reader.notes(),
+        notes=reader.told(),
         limits=limits,
     )
 
@@ -102,7 +102,7 @@ class _Reader:
         self.limits = limits
         self.segments: list[list[float]] = []
         self.looks: list[Look] = []
-        self.curves = 0
+        self.bent = 0
         self.left: Counter[str] = Counter()
         self.known: dict[tuple[str, int, Any], Look] = {}
         self.heights = [0.0, 0.0]
@@ -170,7 +170,7 @@ class _Reader:
         except TypeError:  # a mesh that calls itself a polyline
             self.left["meshes"] += 1
             return
-        self.curves += kind in _CURVES or bool(way.has_curves)
+        self.bent += kind in _CURVES or bool(way.has_curves)
         corners = np.array([(v.x, v.y, v.z) for v in way.control_vertices()], float)
         length = float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
         if len(corners) < 2 or not length > 0:
@@ -214,14 +214,14 @@ class _Reader:
             return None
         return red, green, blue
 
-    def notes(self) -> list[str]:
+    def told(self) -> list[str]:
         """Return sentences on what was left out or drawn otherwise."""
         left = ", ".join(f"{count} {what}" for what, count in sorted(self.left.items()))
         said = [
             f"Left out, as they are no lines that are seen: {left}." if left else "",
-            f"{self.curves} curves became chords that stray from them by no more than a "
+            f"{self.bent} curves became chords that stray from them by no more than a "
             f"two-thousandth of their length."
-            if self.curves
+            if self.bent
             else "",
         ]
         return [sentence for sentence in said if sentence]

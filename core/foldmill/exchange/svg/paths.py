@@ -25,7 +25,7 @@ class Traced:
     """What a path draws: polylines (n, 2), and how many of its pieces were curves."""
 
     lines: list[Floats] = field(default_factory=list)
-    curves: int = 0
+    bent: int = 0
 
 
 def trace(data: str, most: int) -> Traced:
@@ -132,7 +132,7 @@ class _Pen:
         self._along(curves.bezier(control))
 
     def _along(self, chords: Floats) -> None:
-        self.traced.curves += 1
+        self.traced.bent += 1
         if not self.parts:
             self.parts = [np.array([self.at])]
         self.parts.append(chords)

@@ -66,7 +66,7 @@ class _Reader:
         self.limits = limits
         self.segments: list[np.ndarray[tuple[int, ...], np.dtype[np.float64]]] = []
         self.looks: list[Look] = []
-        self.curves = 0
+        self.bent = 0
         self.left: Counter[str] = Counter()
 
     def group(self, element: Element, outer: _Place) -> None:
@@ -123,7 +123,7 @@ class _Reader:
             self.left["shapes without a line"] += 1
             return
         found = traced(element, self.limits.lines)
-        self.curves += found.curves
+        self.bent += found.bent
         for line in found.lines:
             moved = transforms.applied(place.affine, line)
             self.segments.append(np.stack([moved[:-1], moved[1:]], axis=1))
@@ -135,9 +135,9 @@ class _Reader:
         left = ", ".join(f"{count} {what}" for what, count in sorted(self.left.items()))
         said = [
             f"Left out, as they are no lines: {left}." if left else "",
-            f"{self.curves} curves became chords that stray from them by no more than a "
+            f"{self.bent} curves became chords that stray from them by no more than a "
             f"two-thousandth of their length."
-            if self.curves
+            if self.bent
             else "",
             f"{self.sheet.unknown} rules of the style sheet are not understood."
             if self.sheet.unknown
