@@ -14,6 +14,7 @@ import numpy as np
 from foldmill import planar
 from foldmill.errors import UnreadableFile
 from foldmill.exchange.graph import side_faces
+from foldmill.exchange.linking import links
 from foldmill.finding import Finding, Severity
 from foldmill.pattern import Flags, Floats, Indices
 
@@ -42,9 +43,16 @@ def outlined(
     points : (V, 2) mm; edges : (E, 2); angles : (E,) deg; drop_loose : leave out lines that end
     inside the sheet. Raises UnreadableFile, saying where, for lines that make no single sheet.
     """
-    kept = ~_loose(edges, len(points))
-    if not kept.any():
+    loose = _loose(edges, len(points))
+    if loose.all():
         raise _no_sheet(points, edges)
+    ties = links(points, edges, letters, loose)
+    if ties:
+        edges = np.vstack([edges, ties]).astype(np.intp)
+        letters = [*letters, *"F" * len(ties)]
+        angles = np.append(angles, np.zeros(len(ties)))
+        loose = _loose(edges, len(points))
+    kept = ~loose
     found = [*_judge_loose(points, edges, kept, drop_loose)]
     used, flat = np.unique(edges[kept], return_inverse=True)
     spots, lines = points[used], flat.reshape(-1, 2)
@@ -53,7 +61,14 @@ def outlined(
     sides = _sides(spots, lines)
     names, said = _settled(names, sides, spots, lines)
     turns = np.where(np.isin(names, [*_CUT, "F"]), 0.0, angles[kept])
-    return Outlined(spots, lines, tuple(names), turns, (*found, *said))
+    return Outlined(spots, lines, tuple(names), turns, (*found, *_tied(len(ties)), *said))
+
+
+def _tied(count: int) -> list[Finding]:
+    if not count:
+        return []
+    message = f"{count} flat lines tie free cuts and holes to the lines about them; none is scored."
+    return [Finding("import-tied", Severity.INFO, "", message)]
 
 
 def _loose(edges: Indices, count: int) -> Flags:
@@ -138,8 +153,8 @@ def _refuse_apart(points: Floats, edges: Indices) -> None:
     other = points[group != largest][0]
     raise UnreadableFile(
         f"The lines fall into {count} groups that do not touch each other; one is near "
-        f"({_xy(other)}) mm. A sheet is one piece, and a hole must be joined to the creases about "
-        f"it. Leave the others out (--as, skip), or let ends meet by --gap."
+        f"({_xy(other)}) mm. A sheet is one piece. Leave the others out (--as, skip), "
+        f"or let ends meet by --gap."
     )
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from foldmill import Fold, UnreadableFile
+from foldmill.check import check
 from foldmill.exchange.assembling import fold_of
 from foldmill.exchange.drawing import Look, drawing_of
 from foldmill.exchange.options import Options
@@ -108,3 +112,53 @@ def test_an_invisible_crease_is_flat() -> None:
     looks = [*[Look("B")] * 4, Look("M", opacity=0.0)]
     drawing = drawing_of([*BOX, (0, 0, 100, 100)], looks, down=False)
     assert lines(fold_of(drawing, Options()), "F") == 1
+
+
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 8), st.integers(0, 8), st.booleans()), unique_by=lambda s: s[:2]
+    )
+)
+@settings(max_examples=30)
+def test_slits_that_end_inside_the_sheet_are_inner_cuts(slits: list[tuple[int, int, bool]]) -> None:
+    cuts = [
+        (5 + 10 * x, 6 + 10 * y, 5 + 10 * x + (6 if flat else 0), 6 + 10 * y + (0 if flat else 6))
+        for x, y, flat in slits
+    ]
+    fold = sheet([*BOX, (50, 0, 50, 100), *cuts], "BBBBM" + "C" * len(cuts))
+    pattern = fold.pattern
+    crossing = sum(x == 4 and flat for x, _, flat in slits)  # the crease at 50 is crossed by these
+    assert lines(fold, "C") == len(cuts) + crossing
+    length = pattern.edge_lengths[np.array(list(pattern.letters())) == "C"].sum()
+    assert length == pytest.approx(6 * len(cuts))
+    assert lines(fold, "B") == 6
+    assert not check(fold).has_errors
+
+
+def test_holes_float_where_a_cut_goes_round_them() -> None:
+    hole = [(20, 20, 40, 20), (40, 20, 30, 40), (30, 40, 20, 20)]
+    within = [(28, 25, 32, 25), (32, 25, 30, 30), (30, 30, 28, 25)]
+    fold = sheet([*BOX, (0, 100, 100, 0), *hole, *within], "BBBBMCCCBBB")
+    assert lines(fold, "C") == 6
+    assert {"import-tied", "import-inner-cut"} <= codes(fold)
+    assert not check(fold).has_errors
+
+
+def test_a_crease_that_floats_is_refused() -> None:
+    with pytest.raises(UnreadableFile, match="2 groups that do not touch"):
+        sheet([*BOX, (20, 20, 40, 20), (40, 20, 30, 40), (30, 40, 20, 20)], "BBBBMMM")
+    with pytest.raises(UnreadableFile, match="ends inside the sheet"):
+        sheet([*BOX, (20, 20, 40, 20)], "BBBBM")
+
+
+def test_slits_so_dense_that_few_ties_do_not_do_are_filled_about() -> None:
+    chance = random.Random(0)
+    cuts = []
+    for x, y in chance.sample([(x, y) for x in range(5) for y in range(5)], 25):
+        flat = chance.random() < 0.5
+        left, low = 5 + 10 * x + chance.uniform(-2, 2), 6 + 10 * y + chance.uniform(-1, 1)
+        cuts.append((left, low, left + 6 * flat, low + 6 * (not flat)))
+    fold = sheet([*BOX, *cuts], "BBBB" + "C" * len(cuts))
+    assert lines(fold, "C") == len(cuts)
+    assert lines(fold, "F") > 2 * len(cuts)
+    assert not check(fold).has_errors
