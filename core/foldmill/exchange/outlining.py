@@ -164,12 +164,8 @@ def _sides(points: Floats, edges: Indices) -> Indices:
     if not loops:
         raise UnreadableFile("The lines enclose no sheet.")
     for loop in loops:
-        twice = (
-            next((v for k, v in enumerate(loop) if v in loop[:k]), None)
-            if (len(set(loop)) < len(loop))
-            else None
-        )
-        if twice is not None:
+        if len(set(loop)) < len(loop):
+            twice = next(v for k, v in enumerate(loop) if v in loop[:k])
             raise UnreadableFile(
                 f"The lines about a facet meet themselves at ({_xy(points[twice])}) mm; a part "
                 f"hangs on the rest there by one point only. Join it by another line, or leave it "
