@@ -125,8 +125,8 @@ def test_layer_labels_name_role_pen_speed_and_force_in_order_of_work() -> None:
         b"SCORE_BACK Pen 2 Speed 12 Force 240",
         b"CUT_INNER Pen 4 Speed 8 Force 300",
         b"CUT_OUTER Pen 4 Speed 8 Force 300",
-        b"ANCHOR",
-        b"NOTE",
+        b"ANCHOR Pen 5",
+        b"NOTE Pen 5",
     ]
 
 
