@@ -139,7 +139,7 @@ def hpgl_buddy(program: bytes, folder: Path) -> tuple[int, list[str]]:
     """Return the exit code of hpgl-buddy's check of a program, and its warnings."""
     python = _python("hpgl-buddy")
     (folder / "b.hpgl").write_bytes(program)
-    command = [python.parent / "hpgl-buddy", "check", folder / "b.hpgl"]
+    command: list[str | Path] = [python.parent / "hpgl-buddy", "check", folder / "b.hpgl"]
     said = subprocess.run(command, capture_output=True, text=True, check=False)
     told = said.stderr + said.stdout
     return said.returncode, [line for line in told.splitlines() if "WARNING: " in line]

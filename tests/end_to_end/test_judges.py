@@ -48,6 +48,7 @@ def written(folder: Path, most: int) -> list[Path]:
 @pytest.fixture(scope="module")
 def verdicts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What is said of every preset's file; one run of node for all of them."""
+    readers.judged([])  # skips before any is made
     return readers.judged(written(tmp_path_factory.mktemp("presets"), 10**6))
 
 
@@ -68,7 +69,9 @@ def test_rabbit_ear_folds_our_angles_into_our_form(
     assert verdicts[f"{family} {preset}.fold"]["off"] < 1e-8  # mm
 
 
-def test_mountains_valleys_and_borders_survive_oripas_format(tmp_path: Path, soak: Soak) -> None:
+def test_soak_mountains_valleys_and_borders_survive_oripas_format(
+    tmp_path: Path, soak: Soak
+) -> None:
     files = written(tmp_path, soak.size(QUICK, 10**6))
     told = readers.judged(files, "--opx")
     assert {name.split()[0] for name in told} == {family for family, _ in EVERY}
