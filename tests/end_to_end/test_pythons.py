@@ -60,8 +60,9 @@ def test_soak_the_same_bytes_in_another_process_and_on_the_newest_python(
     if not soak.whole:
         return  # an environment of another Python takes minutes to install
     theirs = installed(newest(), tmp_path / "env")
-    with soak.part("newest-python", 0, len(one), "files"):
+    with soak.part("newest-python", 0, len(one), "files") as progress:
         assert digests(theirs, tmp_path / "3", "3", [], whole) == one
+        progress.reached(len(one))
 
 
 def installed(python: Path, folder: Path) -> Path:

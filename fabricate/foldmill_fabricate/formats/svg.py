@@ -120,7 +120,8 @@ _COLUMNS = (6.0, 40.0, 90.0, 112.0, 134.0)
 
 def _legend(plan: Plan, profile: Profile, master: d.Drawing) -> bytes:
     """Return a page that says what each layer of the drawings is for."""
-    used = {id(group.layer) for group in master.groups} | {id(master.layers.note)}
+    silent = {id(master.layers.note), id(master.layers.anchor)}
+    used = {id(group.layer) for group in master.groups} | silent
     rows = [row for row in legend(profile) if id(row.look) in used]
     svg = canvas(297.0, ROW * (len(rows) + 3))
     _row(svg, 1, [f"{plan.title}: what the layers of its drawings are (profile {profile.slug})"])

@@ -90,6 +90,11 @@ def test_foldmill_offers_its_formats_through_its_own_hook() -> None:
 def test_drawings_are_as_they_were(view: str, golden: Golden) -> None:
     golden.check(f"hand-made/{view}.svg", SVG[f"{view}.svg"])
     golden.check(f"hand-made/{view}.dxf", DXF[f"{view}.dxf"])
+    golden.check(f"hand-made/r12/{view}.dxf", R12[f"{view}.dxf"])
+
+
+def test_the_legend_is_as_it_was(golden: Golden) -> None:
+    golden.check("hand-made/legend.svg", SVG["legend.svg"])
 
 
 @pytest.mark.parametrize("view", VIEWS)
