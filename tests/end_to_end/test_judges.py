@@ -80,6 +80,18 @@ def test_soak_mountains_valleys_and_borders_survive_oripas_format(
     }
 
 
+def test_fold_reads_our_files_for_oripa(tmp_path: Path) -> None:
+    small = [each for each in EVERY if len(fold(*each).pattern.edges) <= QUICK]
+    for family, preset in small:
+        made = export(fold(family, preset), "oripa", ".opx", lossy=True)
+        (tmp_path / f"{family} {preset}.opx").write_bytes(made.content)
+    told = readers.judged(sorted(tmp_path.iterdir()))
+    assert {name: Counter(each["back"]) for name, each in told.items()} == {
+        f"{family} {preset}.opx": Counter(fold(family, preset).pattern.letters())
+        for family, preset in small
+    }
+
+
 @pytest.mark.parametrize("program", [each for each in PROGRAMS if ".fold" in PROGRAMS[each].files])
 def test_a_file_for_any_program_is_sound_to_a_validator(program: str, tmp_path: Path) -> None:
     small = [each for each in EVERY if len(fold(*each).pattern.edges) <= QUICK]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.designing import Planarise, load
+from foldmill_fabricate.cli.importing import load, with_file_options
 from foldmill_fabricate.cli.output import AsJson, say, table
 
 
@@ -17,6 +17,7 @@ def add_to(app: typer.Typer) -> None:
     app.command()(export)
 
 
+@with_file_options
 def export(
     file: Annotated[
         Path | None, typer.Argument(help="A crease pattern; without one, the profiles are listed.")
@@ -30,7 +31,7 @@ def export(
     lossy: Annotated[
         bool, typer.Option("--lossy", help="Write it even where the file cannot hold everything.")
     ] = False,
-    planarise: Planarise = False,
+    options: Any = None,
     as_json: AsJson = False,
 ) -> None:
     """Write a pattern as a file that another origami program accepts."""
@@ -46,7 +47,7 @@ def export(
             "Name the program with --profile and the file with -o; `foldmill export` alone lists "
             "the programs and their files."
         )
-    fold = load(file, planarise)
+    fold = load(file, options)
     try:
         made = exporting.export(fold, profile, output.suffix, lossy=lossy)
     except CannotHold as error:

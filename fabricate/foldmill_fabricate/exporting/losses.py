@@ -59,13 +59,14 @@ def near(least: float) -> Loss:
     """Return a loss that tells of points nearer to each other than ``least`` mm."""
 
     def told(fold: Fold, program: str) -> Iterator[str]:
-        short = fold.pattern.edge_lengths < least
+        lengths = fold.pattern.edge_lengths[~np.asarray(fold.pattern.added, bool)]
+        short = lengths < least
         if short.any():
-            edge = int(fold.pattern.edge_lengths.argmin())
+            edge = int(lengths.argmin())
             yield (
-                f"{program} takes points within {least:g} of a unit, here a mm, for one, and "
+                f"{program} takes points within {least:g} mm of each other for one, and "
                 f"{_count(short)} edges are shorter, edge {edge} with "
-                f"{fold.pattern.edge_lengths[edge]:.3g} mm. A larger pattern would do."
+                f"{lengths[edge]:.3g} mm. A larger pattern would do."
             )
 
     return told

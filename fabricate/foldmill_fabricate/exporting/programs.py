@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from foldmill import Fold
-from foldmill.exchange import portable
+from foldmill.exchange import cp, opx, portable
 from foldmill_fabricate.exporting import losses
 from foldmill_fabricate.exporting.losses import Loss
 from foldmill_fabricate.pictures.pattern_svg import FLAT_FOLDER, pattern_svg
@@ -37,6 +37,9 @@ def _text(write: Callable[[Fold], str]) -> Callable[[Fold], bytes]:
 
 _FLAT_FOLD = Writer(_text(portable.flat), (losses.angles,))
 
+_LINES = (losses.angles, losses.cuts, losses.mark, losses.near(1.0))
+"""What lines of four types do not hold; a unit is a mm, so that the size comes back."""
+
 _ALL = (
     Program(
         "origami-simulator",
@@ -57,9 +60,17 @@ _ALL = (
         },
     ),
     Program(
+        "oripa",
+        "ORIPA: draws patterns that fold flat, and folds them",
+        {".opx": Writer(_text(opx.write), _LINES), ".cp": Writer(_text(cp.write), _LINES)},
+    ),
+    Program(
         "oriedita",
         "Oriedita: draws patterns that fold flat",
-        {".fold": Writer(_text(portable.downward), (losses.angles, losses.unassigned))},
+        {
+            ".fold": Writer(_text(portable.downward), (losses.angles, losses.unassigned)),
+            ".cp": Writer(_text(cp.write), _LINES),
+        },
     ),
     Program(
         "rabbit-ear",

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import hand_made
+import numpy as np
 import pytest
 from command import Run
 from stools import stool
 
 from foldmill import CreasePattern, Fold, FoldmillError, UnknownName
-from foldmill.exchange import read, write
+from foldmill.errors import InvalidInput
+from foldmill.exchange import cp, opx, read, write
+from foldmill.exchange.marking import marked
+from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotHold
 from foldmill_fabricate.exporting import PROGRAMS, export
 
@@ -72,6 +77,32 @@ def test_refusals_name_the_first_of_what_would_be_lost() -> None:
     assert export(creased("UM"), "flat-folder", ".svg").content.count(b"magenta") == 1
 
 
+def test_lines_of_four_types_hold_neither_cuts_nor_marks_nor_what_is_tiny() -> None:
+    with pytest.raises(CannotHold, match=r"ORIPA knows no inner cut, and there are 1 here"):
+        export(creased("CM"), "oripa", ".cp")
+    fault = Finding("crosses", Severity.ERROR, "edge 3", "It crosses edge 4.", "Move it.")
+    with pytest.raises(CannotHold, match=r"says of itself: DOES NOT FOLD: crosses"):
+        export(marked(creased("MM"), [fault]), "oripa", ".cp")
+    whole = creased("MM").pattern
+    tiny = replace(creased("MM"), pattern=replace(whole, vertices=whole.vertices / 50))
+    with pytest.raises(
+        CannotHold, match=r"within 1 mm of each other.* 6 edges are shorter.* 0\.6 mm"
+    ):
+        export(tiny, "oripa", ".opx")
+    with pytest.raises(InvalidInput, match=r"1 creases are neither mountain nor valley"):
+        export(creased("UM"), "oripa", ".cp", lossy=True)
+
+
+@pytest.mark.parametrize(("program", "suffix"), [("oripa", ".opx"), ("oripa", ".cp")])
+def test_a_pattern_comes_back_from_oripas_files_line_by_line(program: str, suffix: str) -> None:
+    content = export(creased("MV"), program, suffix).content
+    drawn = opx.read(content) if suffix == ".opx" else cp.read(content.decode())
+    whole = creased("MV").pattern
+    ends = whole.vertices[whole.edges[~np.asarray(whole.added, bool)]]
+    assert np.allclose(drawn.upright(), ends)  # what is up is up
+    assert [look.letter for look in drawn.looks] == list("BBBBBBMV")
+
+
 def test_who_knows_of_the_loss_gets_the_file_and_is_told_again() -> None:
     made = export(stool(), "flat-folder", ".fold", lossy=True)
     assert len(made.lost) == 1
@@ -93,7 +124,7 @@ def test_flat_folder_knows_colours_by_their_names_alone() -> None:
 
 def test_the_command_writes_refuses_and_lists(foldmill: Run, tmp_path: Path) -> None:
     (tmp_path / "s.fold").write_text(write(stool()))
-    assert foldmill("export").out.count(".fold") == len(PROGRAMS)
+    assert len(foldmill("export").out.splitlines()) == 1 + len(PROGRAMS)
     assert foldmill("export", "s.fold", "--profile", "origami-simulator", "-o", "o.svg").code == 0
     assert (tmp_path / "o.svg").read_bytes() == export(stool(), "origami-simulator", ".svg").content
     refused = foldmill("export", "s.fold", "--profile", "flat-folder", "-o", "f.fold")
@@ -107,7 +138,7 @@ def test_the_command_writes_refuses_and_lists(foldmill: Run, tmp_path: Path) -> 
 
 
 def test_other_peoples_patterns_go_on_to_other_people(foldmill: Run, tmp_path: Path) -> None:
-    for name in ("ff_pinwheel.fold", "fold_diagonal-cp.fold"):
+    for name in ("ff_pinwheel.fold", "ff_pinwheel.opx", "fold_diagonal-cp.fold"):
         told = foldmill(
             *("export", str(SAMPLES / name)), *("--profile", "flat-folder", "-o", "x.fold")
         )

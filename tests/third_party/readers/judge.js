@@ -1,10 +1,11 @@
 // What other people's origami libraries say of FOLD files.
 //
-//     node judge.js FOLDER_OF_NODE_MODULES [--opx] FILE.fold...
+//     node judge.js FOLDER_OF_NODE_MODULES [--opx] FILE.fold... FILE.opx...
 //
 // prints one JSON object: for each file what Rabbit Ear's validator finds, how many faces FOLD's own
 // library finds from the lines alone, how far the form that Rabbit Ear folds from the angles is off
-// the one in the file (null where it is its mirror image), and (--opx) the assignments after a way through ORIPA's format and back.
+// the one in the file (null where it is its mirror image), and (--opx) the assignments after a way through ORIPA's format and back;
+// for each .opx file the assignments that FOLD's own library reads.
 
 const fs = require("fs");
 const path = require("path");
@@ -84,5 +85,9 @@ function judge(file, throughOpx) {
 }
 
 const files = words.filter((word) => word !== "--opx");
-const told = files.map((file) => [path.basename(file), judge(file, words.includes("--opx"))]);
+const read = (file) =>
+  file.endsWith(".opx")
+    ? { back: count(FOLD.convert.oripa.toFold(fs.readFileSync(file, "utf8")).edges_assignment) }
+    : judge(file, words.includes("--opx"));
+const told = files.map((file) => [path.basename(file), read(file)]);
 console.log(JSON.stringify(Object.fromEntries(told)));
