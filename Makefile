@@ -52,7 +52,7 @@ pictures: $(READY)
 TOOLS := $(or $(FOLDMILL_TOOLS),$(or $(XDG_CACHE_HOME),$(HOME)/.cache)/foldmill-tools)
 READERS := tests/third_party/readers
 tools:
-	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb inkscape python3-lxml python3-cssselect
+	apt-get update -qq && apt-get install -y -qq hp2xx librecad xvfb inkscape python3-lxml python3-cssselect postgresql
 	command -v npm >/dev/null || apt-get install -y -qq nodejs npm
 	mkdir -p $(TOOLS)/node
 	cp $(READERS)/package.json $(READERS)/package-lock.json $(READERS)/.npmrc $(TOOLS)/node
