@@ -11,6 +11,7 @@ stroke again without lifting.
 
 from __future__ import annotations
 
+import hashlib
 from enum import StrEnum
 from typing import Any, Literal
 
@@ -300,6 +301,37 @@ class Figures(_Value):
         return round(self.travel - self.travel_bound, 3) if self.travel_bound else None
 
 
+class There(_Value):
+    """Strokes of one operation that are on the sheet already."""
+
+    setup: int
+    """Number of its set-up in the origin."""
+    role: Role
+    strokes: tuple[int, ...]
+    """1, 2, 3 … over the operation's strokes."""
+
+
+class Remakes(_Value):
+    """A sheet that was left half made: this plan holds only what was missing on it."""
+
+    sheet: str
+    """Its id in the ledger."""
+    origin: Plan
+    """What it was begun from; without the strokes that are there, and but for set-ups that are left
+    out, this plan."""
+    origin_sha256: str
+    """``digest`` of the origin: what the ledger knows the sheet's job by."""
+    record_sha256: str
+    """``digest`` of the ledger's record of it when this was planned."""
+    there: tuple[There, ...]
+
+    @property
+    def written(self) -> str:
+        """The id that is written on the sheet: the one it was begun with."""
+        before = self.origin.remakes
+        return before.written if before else self.sheet
+
+
 class Plan(_Value):
     """Everything that is done to one sheet, and what it was made from."""
 
@@ -331,6 +363,8 @@ class Plan(_Value):
     """Holes at vertices."""
     coupon: Coupon | None = None
     """What is tried on it, where it is a coupon and not a fold."""
+    remakes: Remakes | None = None
+    """Which sheet it goes on with; None where it begins one."""
     passes: tuple[Pass, ...]
     figures: Figures
     findings: tuple[Finding, ...] = ()
@@ -343,6 +377,16 @@ class Plan(_Value):
         """Where each copy lies, the first one first."""
         return (self.placement, *self.copies)
 
+    @property
+    def whole(self) -> Plan:
+        """The plan that its sheet was begun from: itself, where it goes on with none."""
+        return self.remakes.origin.whole if self.remakes else self
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the plan: what the ledger knows a job by."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
     @model_serializer(mode="wrap")
     def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return _without(write(self), quantity=1, copies=[])
+        return _without(write(self), quantity=1, copies=[], remakes=None)

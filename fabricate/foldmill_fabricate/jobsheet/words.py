@@ -87,9 +87,15 @@ def before(plan: Plan, face: Face, setup: SetUp) -> str:
     doing = {
         Gate.LOAD: f"load the sheet, {face} up, lower left corner at {_corner(plan)}",
         Gate.TOOL: _tooling(plan, setup),
+        Gate.RE_REGISTER: _come_back(plan, face),
         Gate.FLIP: f"turn the sheet over {plan.flip.kind} as drawn below, and find the marks",
     }
     return "; ".join(doing[gate] for gate in setup.gates)
+
+
+def _come_back(plan: Plan, face: Face) -> str:
+    name = f" {plan.remakes.written}" if plan.remakes else ""
+    return f"lay sheet{name} as it lay, {face} up, lower left corner at {_corner(plan)}"
 
 
 def _tooling(plan: Plan, setup: SetUp) -> str:

@@ -16,11 +16,18 @@ from foldmill_fabricate.verify.planned import planned
 from foldmill_fabricate.verify.process import prove_order, prove_process
 from foldmill_fabricate.verify.register import prove_register
 from foldmill_fabricate.verify.relief import prove_relief
+from foldmill_fabricate.verify.rest import prove_rest
 from foldmill_fabricate.verify.waste import prove_waste
 
 
 def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
-    """Derive again what the plan must hold, and compare; nothing of the planner is used."""
+    """Derive again what the plan must hold, and compare; nothing of the planner is used.
+
+    Of a plan that goes on with a sheet: the plan it was begun from is the pattern's, and this one
+    holds what is not there yet.
+    """
+    if plan.remakes is not None:
+        return [*prove_rule(plan.remakes.origin, pattern), *prove_rest(plan, plan.remakes)]
     asked = Asked(plan, pattern)
     strokes = planned(plan)
     if plan.coupon is not None:

@@ -15,6 +15,9 @@ from foldmill_fabricate.verify.programs import ProgramProof, prove_programs
 from foldmill_fabricate.verify.rule import prove_rule
 from foldmill_fabricate.verify.virtual_sheet import Line, drawn_length
 
+TOLD = frozenset({"remakes"})
+"""Findings of the plan that are told here, though nothing is wrong: what was proved, and what not.
+"""
 MOST = 12
 """Findings of one kind that are told one by one; the rest are counted."""
 
@@ -72,7 +75,7 @@ def verify(
     programs are not the recorded ones, so that only their drawing is compared.
     """
     proof = prove_programs(plan, programs, fit)
-    own = [finding for finding in plan.findings if finding.severity is Severity.ERROR]
+    own = [f for f in plan.findings if f.severity is Severity.ERROR or f.code in TOLD]
     findings = _digest([*own, *proof.findings, *prove_rule(plan, pattern)])
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
@@ -84,7 +87,8 @@ def _faults(plan: Plan, pattern: CreasePattern, proof: ProgramProof) -> tuple[Fa
     drawn = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
     if plan.coupon is not None:
         return tuple(drawn)
-    return (*drawn, *planned_faults(Asked(plan, pattern), planned(plan)))
+    whole = plan.whole
+    return (*drawn, *planned_faults(Asked(whole, pattern), planned(whole)))
 
 
 def _digest(findings: Sequence[Finding]) -> tuple[Finding, ...]:
