@@ -126,7 +126,7 @@ class _Bench:
     ) -> None:
         self.job, self.operator, self.ledger, self.sheet = job, operator, ledger, laid.id
         self.port, self.device, self.test_cut, self.wish = port, device, test_cut, wish
-        self.measured = bool(job.marks)
+        self.marks_seen = bool(job.marks)
         """Whether marks were measured on the sheet as it lies now."""
         self.returned = laid.is_begun
         """Whether somebody has worked on this sheet, and went away since."""
@@ -178,7 +178,7 @@ class _Bench:
             self.job.plan,
             remakes.written if remakes else self.sheet,
             known[-1] if known else None,
-            self.measured,
+            self.marks_seen,
             self.job.path / f"flip-{self.sheet}.png" if gate is Gate.FLIP else None,
         )
 
@@ -231,14 +231,14 @@ class _Work:
                 raise CannotSend(f"Stopped before {self.part.name}, as the operator said.")
             gates.check(request, answer)
             if answer.marks:
-                bench.job, bench.measured = bench.job.fitted(answer.marks), True
+                bench.job, bench.marks_seen = bench.job.fitted(answer.marks), True
             self.ledger.answer(self.sheet, self.number, gate, answer.told, answer.who)
 
     def try_presets(self) -> None:
         """Cut in the waste what nobody has tried, before anything of the part is cut so."""
         plan = self.bench.job.plan
-        if self.record.runs or plan.coupon is not None or plan.remakes is not None:
-            return  # what goes on with a sheet was tried when that was begun
+        if self.record.runs or not trials.are_offered(plan):
+            return
         for setup in self.setups:
             if trials.first_of_its_process(plan, setup):
                 self._try(setup)

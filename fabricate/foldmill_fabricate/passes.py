@@ -301,6 +301,25 @@ class Figures(_Value):
         return round(self.travel - self.travel_bound, 3) if self.travel_bound else None
 
 
+class PenUse(_Value):
+    """What one pen of a foreign drawing draws."""
+
+    pen: int
+    role: Role | None
+    """None where its lines are left out."""
+
+
+class Source(_Value):
+    """A drawing from elsewhere that a plan was made from: no pattern proves it."""
+
+    name: str
+    sha256: str
+    """of its bytes"""
+    pens: tuple[PenUse, ...]
+    tolerance: float
+    """How far lines may leave the drawing's arcs, mm."""
+
+
 class There(_Value):
     """Strokes of one operation that are on the sheet already."""
 
@@ -363,6 +382,8 @@ class Plan(_Value):
     """Holes at vertices."""
     coupon: Coupon | None = None
     """What is tried on it, where it is a coupon and not a fold."""
+    source: Source | None = None
+    """The drawing it was made from, where it was not made from a pattern."""
     remakes: Remakes | None = None
     """Which sheet it goes on with; None where it begins one."""
     passes: tuple[Pass, ...]
@@ -389,4 +410,4 @@ class Plan(_Value):
 
     @model_serializer(mode="wrap")
     def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return _without(write(self), quantity=1, copies=[], remakes=None)
+        return _without(write(self), quantity=1, copies=[], remakes=None, source=None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate import folder
 from foldmill_fabricate.errors import CannotPlan
@@ -24,6 +25,8 @@ def write_remake(
         raise CannotPlan(
             f"{output} is the folder that the sheet was begun from; write the rest into another."
         )
-    data = (origin / folder.PATTERN).read_bytes()
-    fold = fold_file.read(data.decode(), folder.PATTERN)
+    if plan.whole.source is None:
+        fold = fold_file.read((origin / folder.PATTERN).read_text("utf-8"), folder.PATTERN)
+    else:
+        fold = Fold(CreasePattern.from_lines([], [], [], []))
     return folder.write(fold, plan, output, formats, style)

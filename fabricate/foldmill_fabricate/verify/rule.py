@@ -10,6 +10,7 @@ from foldmill_fabricate.verify.copies import prove_copies
 from foldmill_fabricate.verify.coupon import prove_coupon
 from foldmill_fabricate.verify.creases import prove_creases
 from foldmill_fabricate.verify.cuts import prove_cuts
+from foldmill_fabricate.verify.drawn import prove_drawn
 from foldmill_fabricate.verify.lead_ins import prove_lead_ins
 from foldmill_fabricate.verify.nesting import prove_nesting
 from foldmill_fabricate.verify.planned import planned
@@ -28,8 +29,10 @@ def prove_rule(plan: Plan, pattern: CreasePattern) -> list[Finding]:
     """
     if plan.remakes is not None:
         return [*prove_rule(plan.remakes.origin, pattern), *prove_rest(plan, plan.remakes)]
-    asked = Asked(plan, pattern)
     strokes = planned(plan)
+    if plan.source is not None:
+        return prove_drawn(plan, plan.source, strokes)
+    asked = Asked(plan, pattern)
     if plan.coupon is not None:
         return [
             *prove_order(plan),

@@ -56,6 +56,8 @@ class Verification:
     """The virtual sheet: everything drawn, in order of work, in sheet coordinates."""
     faults: tuple[Fault, ...] = ()
     """The lines that are missing, extra or moved, for a picture."""
+    is_derived: bool = True
+    """Whether there was a pattern to prove the plan against."""
 
     @property
     def ok(self) -> bool:
@@ -80,12 +82,13 @@ def verify(
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
     faults = _faults(plan, pattern, proof) if has_errors(findings) else ()
-    return Verification(plan.title, findings, figures, lines, faults)
+    is_derived = plan.whole.source is None
+    return Verification(plan.title, findings, figures, lines, faults, is_derived)
 
 
 def _faults(plan: Plan, pattern: CreasePattern, proof: ProgramProof) -> tuple[Fault, ...]:
     drawn = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
-    if plan.coupon is not None:
+    if plan.coupon is not None or plan.whole.source is not None:
         return tuple(drawn)
     whole = plan.whole
     return (*drawn, *planned_faults(Asked(whole, pattern), planned(whole)))

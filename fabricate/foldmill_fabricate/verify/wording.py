@@ -29,6 +29,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "missing-score": ("A crease is not scored", _PLAN),
     "missing-stroke": ("A stroke of the plan is not drawn", _WRITE),
     "moved": ("A stroke lies beside its place", _WRITE),
+    "no-pattern": ("There is no pattern to prove it against", ""),
     "no-such-line": ("The plan has a line that the pattern does not have", _PLAN),
     "not-to-score": ("A line is scored that is no fold", _PLAN),
     "order": ("The work is done in the wrong order", _WRITE),
