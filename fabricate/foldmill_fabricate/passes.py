@@ -317,7 +317,7 @@ class Source(_Value):
     """of its bytes"""
     pens: tuple[PenUse, ...]
     tolerance: float
-    """How far lines may leave the drawing's arcs, mm."""
+    """How far lines may leave the drawing's, mm: arcs became chords, and near corners one."""
 
 
 class There(_Value):

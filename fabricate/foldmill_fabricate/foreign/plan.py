@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from enum import StrEnum
+from math import dist
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +19,13 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate import folder
 from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.foreign import limits, overlaps
+from foldmill_fabricate.foreign.nesting import inside_first
 from foldmill_fabricate.foreign.read import Drawing
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, Perforation
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import (
+    XY,
     Face,
     Flip,
     Operation,
@@ -43,7 +46,6 @@ from foldmill_fabricate.plan.placement import lay_blank
 from foldmill_fabricate.plan.registration import Registration
 from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.sheet import on_carrier, seated
-from foldmill_fabricate.toolpath import order
 
 Floats = NDArray[np.float64]
 
@@ -84,6 +86,7 @@ def plan_drawing(
     ``plan.make`` takes them. The same input gives the same plan. Raises CannotPlan for a pen of
     which nothing is said, and where two lines run along each other; DoesNotFit with the missing mm.
     """
+    _refuse_many(drawing)
     roles = _roles(drawing, pens)
     material = processes.chosen(material, machine, score, cut)
     if isinstance(material.score, Perforation) and Role.SCORE in roles.values():
@@ -106,7 +109,7 @@ def plan_drawing(
         name=drawing.name,
         sha256=drawing.sha256,
         pens=tuple(PenUse(pen=pen, role=role) for pen, role in sorted(roles.items())),
-        tolerance=limits.TOLERANCE_MM,
+        tolerance=limits.TOLERANCE_MM + limits.APART_MM,
     )
     return Plan(
         title=Path(drawing.name).stem,
@@ -120,7 +123,7 @@ def plan_drawing(
         ties=(),
         source=source,
         passes=passes,
-        figures=measure(passes, machine, sheet, turn),
+        figures=measure(passes, machine, sheet, turn, bounded=False),
         findings=tuple(_findings(drawing)),
     )
 
@@ -132,6 +135,15 @@ def write_drawing(
     return folder.write(
         Fold(CreasePattern.from_lines([], [], [], [])), plan, output, formats, style
     )
+
+
+def _refuse_many(drawing: Drawing) -> None:
+    count = sum(len(own) for own in drawing.pens.values())
+    if count > limits.STROKES:
+        raise CannotPlan(
+            f"{drawing.name} has {count:,} lines; {limits.STROKES:,} at the most are put in order. "
+            "Join those that meet, or divide the drawing."
+        )
 
 
 def _roles(drawing: Drawing, pens: Mapping[int, Use]) -> dict[int, Role | None]:
@@ -194,8 +206,7 @@ def _passes(
         for role in own:
             if not strokes[role]:
                 continue
-            nested = process == "cut"
-            done = order.sorted_strokes(strokes[role], preset.repeats, at, nested=nested)
+            done = inside_first(strokes[role], preset.repeats, at)
             at = np.array(done[-1].points[-1])
             operations.append(
                 Operation(role=role, repeats=preset.repeats, overcut=preset.overcut, strokes=done)
@@ -226,10 +237,24 @@ def _strokes(
     found: dict[tuple[tuple[float, float], ...], Stroke] = {}
     for pen, ways in drawing.pens.items():
         for way in ways if roles[pen] is role else ():
-            points = tuple((round(x + placement.dx, 9), round(y + placement.dy, 9)) for x, y in way)
+            kept = thinned(way)
+            if len(kept) == 2 and kept[0] == kept[1]:
+                continue  # a ring smaller than a step
+            points = tuple(
+                (round(x + placement.dx, 9), round(y + placement.dy, 9)) for x, y in kept
+            )
             if points not in found and points[::-1] not in found:
                 found[points] = Stroke(points=points)
     return list(found.values())
+
+
+def thinned(way: Sequence[XY]) -> list[XY]:
+    """Leave out corners that lie on the one before, as far as a plotter can tell; ends stay."""
+    kept = [way[0]]
+    for spot in way[1:-1]:
+        if dist(spot, kept[-1]) >= limits.APART_MM:
+            kept.append(spot)
+    return [*kept, way[-1]]
 
 
 def _findings(drawing: Drawing) -> Iterator[Finding]:

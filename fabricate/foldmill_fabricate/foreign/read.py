@@ -15,7 +15,7 @@ from math import hypot, isfinite
 
 from foldmill.errors import UnreadableFile
 from foldmill_fabricate.foreign import limits
-from foldmill_fabricate.foreign.curves import arc, chords, circle
+from foldmill_fabricate.foreign.arcs import arc, chords, circle
 from foldmill_fabricate.foreign.scaling import Scale, Unscalable
 from foldmill_fabricate.foreign.words import Word, words
 

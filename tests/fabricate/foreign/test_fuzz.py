@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import time
+from itertools import islice
 
 from fabricate.half_made import PENS
 from hypothesis import given
@@ -60,12 +61,23 @@ def test_any_sequence_of_instructions_is_read_or_refused_in_words(
     sentence(filled.encode("latin-1"))
 
 
-def written(rng: random.Random) -> bytes:
-    """Return a drawing as a program might write it, often spoiled, now and then a bomb."""
-    count = rng.choice([3, 10, 60, 400])
+def babble(rng: random.Random) -> str:
+    """Return instructions in no order, some of them refused."""
     pool = MOVES + CURVES if rng.random() < 0.5 else WORDS
-    text = "IN;SP1;" + "".join(rng.choice(pool) for _ in range(count)) + "PU;"
-    largest = rng.choice([10, 4000, 30_000, 10**9])
+    return "".join(rng.choice(pool) for _ in range(rng.choice([3, 10, 60, 400])))
+
+
+def sound(rng: random.Random) -> str:
+    """Return a drawing as a program writes it."""
+    ways = ["PD#,#;", "PD#,#,#,#;", "PD;PA#,#;", "PD;PR#,#;PA;", "PD;AR#,#,90;", "CI#;", "PD;LT;"]
+    strokes = (f"PU;SP{rng.randint(1, 4)};PU#,#;{rng.choice(ways)}PU;" for _ in range(30))
+    return "".join(islice(strokes, rng.choice([1, 5, 30])))
+
+
+def written(rng: random.Random) -> bytes:
+    """Return a drawing, sound or not, perhaps with some bytes spoiled, now and then a bomb."""
+    text = "IN;SP1;" + (sound if rng.random() < 0.6 else babble)(rng) + "PU;"
+    largest = rng.choice([10, 4000, 4000, 30_000, 10**9])
     out = [str(rng.randint(-largest, largest)) if each == "#" else each for each in text]
     data = "".join(out).encode("latin-1")
     for _ in range(rng.choice([0, 0, 1, 5])):
@@ -80,16 +92,19 @@ def test_seeded_drawings_are_read_or_refused_within_bounds(soak: Soak) -> None:
     """``make soak PART=foreign`` reads ten thousand."""
     count = soak.size(150, 10_000)
     material, machine = shelf.material("pp-0.75"), shelf.machine(PENS)
+    was_read = 0
     with soak.part("foreign", SEED, count, "drawings") as progress:
         for number in range(progress.before, count):
             data = written(random.Random(f"{SEED} {number}"))
             began = time.process_time()
             found = sentence(data)
+            was_read += found is not None
             if found is not None:
                 try_to_plan(found, material, machine)
             assert time.process_time() - began < SLOWEST, number
             if number % 100 == 99:
                 progress.reached(number + 1)
+        assert was_read > (count - progress.before) / 10
 
 
 def try_to_plan(found: Drawing, material: Material, machine: Machine) -> None:

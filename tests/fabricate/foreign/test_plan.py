@@ -10,12 +10,18 @@ import pytest
 import shapely
 from fabricate.bench import Bench
 from fabricate.half_made import KNIFE, LASER, ONE_TOOL, PENS, left_half_made
+from hypothesis import given
+from hypothesis import strategies as st
 
 from foldmill import CreasePattern
 from foldmill_fabricate import shelf
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.errors import CannotPlan, CannotSend, DoesNotFit
-from foldmill_fabricate.foreign import Drawing, Use, plan_drawing, read, write_drawing
+from foldmill_fabricate.foreign import Drawing, Use, limits, plan_drawing, read, write_drawing
+from foldmill_fabricate.foreign.nesting import inside_first
+from foldmill_fabricate.foreign.plan import thinned
+from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Operation, Plan, Role, Stroke
 from foldmill_fabricate.plotter.ledger import Ledger, State
 from foldmill_fabricate.remaking import read_spoken, remake, write_remake
@@ -180,3 +186,37 @@ def test_what_is_wrong_in_its_plan_is_found_without_a_pattern() -> None:
 
 def no_pattern() -> CreasePattern:
     return CreasePattern.from_lines([], [], [], [])
+
+
+def test_corners_nearer_than_a_step_are_one_and_the_line_stays_where_it_is() -> None:
+    fine = [(k * 0.003, np.sin(k * 0.003)) for k in range(3000)]
+    kept = thinned(fine)
+    assert kept[0] == fine[0]
+    assert kept[-1] == fine[-1]
+    assert len(kept) < len(fine) / 5
+    gap = shapely.hausdorff_distance(shapely.LineString(fine), shapely.LineString(kept))
+    assert gap < limits.APART_MM
+    speck = b"SP1;PU0,0;PD4000,0;PU;PU9,9;PD9.1,9;PD9.1,9.1;PD9,9;PU;"
+    assert len(strokes(plan_drawing(drawing(speck), {1: Use.CUT}, *presets()), Role.CUT_OUTER)) == 1
+
+
+def presets() -> tuple[Material, Machine]:
+    return shelf.material("pp-0.75"), shelf.machine(PENS)
+
+
+@given(st.lists(st.tuples(*[st.floats(0, 100)] * 4), min_size=1, max_size=12))
+def test_what_lies_inside_a_closed_line_is_cut_before_it(boxes: list[tuple[float, ...]]) -> None:
+    rings = []
+    for x, y, w, h in boxes:
+        corners = [(x, y), (x + w + 1, y), (x + w + 1, y + h + 1), (x, y + h + 1), (x, y)]
+        rings.append(Stroke(points=tuple(corners)))
+    done = inside_first(rings, 1, np.zeros(2))
+    assert sorted(map(_box, done)) == sorted(map(_box, rings))
+    areas = [shapely.box(*_box(ring)) for ring in done]
+    for k, area in enumerate(areas):
+        assert not any(area.contains_properly(later) for later in areas[k + 1 :])
+
+
+def _box(ring: Stroke) -> tuple[float, float, float, float]:
+    x, y = np.array(ring.points).T
+    return float(x.min()), float(y.min()), float(x.max()), float(y.max())

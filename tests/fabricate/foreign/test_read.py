@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from foldmill.errors import UnreadableFile
 from foldmill_fabricate.foreign import limits, read
-from foldmill_fabricate.foreign.curves import chords
+from foldmill_fabricate.foreign.arcs import chords
 from foldmill_fabricate.foreign.scaling import Scale
 
 Path = tuple[tuple[float, float], ...]
@@ -168,8 +168,8 @@ def test_every_refused_instruction_is_named_and_the_rest_counted() -> None:
     [
         (b" " * (limits.BYTES + 1), "8,000,000 at the most"),
         (b"PU;" * (limits.INSTRUCTIONS + 1), "more than 200,000 instructions"),
-        (b"PD" + b"1,1,2,2," * limits.POINTS + b"1,1;", "more than 400,000 corners"),
-        (b"PU9,9;" + b"CI700000;" * 200, "more than 400,000 corners by byte"),
+        (b"PD" + b"1,1,2,2," * limits.POINTS + b"1,1;", "more than 100,000 corners"),
+        (b"PU9,9;" + b"CI700000;" * 200, "more than 100,000 corners by byte"),
     ],
     ids=["bytes", "instructions", "corners", "arcs"],
 )
