@@ -126,8 +126,7 @@ class _Bench:
     ) -> None:
         self.job, self.operator, self.ledger, self.sheet = job, operator, ledger, laid.id
         self.port, self.device, self.test_cut, self.wish = port, device, test_cut, wish
-        self.marks_seen = bool(job.marks)
-        """Whether marks were measured on the sheet as it lies now."""
+        self.marks_seen = bool(job.marks)  # on the sheet as it lies now
         self.returned = laid.is_begun
         """Whether somebody has worked on this sheet, and went away since."""
         self.worked = False
@@ -170,13 +169,12 @@ class _Bench:
         """Return what the operator is asked for."""
         measured = [one.told.get("thickness") for one in self.ledger.answers(self.sheet)]
         known = [float(each) for each in measured if each is not None]
-        remakes = self.job.plan.remakes
         return Request(
             gate,
             face,
             setup,
             self.job.plan,
-            remakes.written if remakes else self.sheet,
+            self.job.plan.written(self.sheet),
             known[-1] if known else None,
             self.marks_seen,
             self.job.path / f"flip-{self.sheet}.png" if gate is Gate.FLIP else None,

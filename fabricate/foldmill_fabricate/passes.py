@@ -347,8 +347,7 @@ class Remakes(_Value):
     @property
     def written(self) -> str:
         """The id that is written on the sheet: the one it was begun with."""
-        before = self.origin.remakes
-        return before.written if before else self.sheet
+        return self.origin.written(self.sheet)
 
 
 class Plan(_Value):
@@ -402,6 +401,10 @@ class Plan(_Value):
     def whole(self) -> Plan:
         """The plan that its sheet was begun from: itself, where it goes on with none."""
         return self.remakes.origin.whole if self.remakes else self
+
+    def written(self, sheet: str) -> str:
+        """Return the id that is written on a sheet: the one it was begun with."""
+        return self.remakes.written if self.remakes else sheet
 
     @property
     def digest(self) -> str:

@@ -167,12 +167,9 @@ def plan(
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)
     look = Style(profiles.find(profile), "R12" if dxf is DxfChoice.R12 else "R2000")
-    asked: dict[str, Any] = {
-        "score": None if score is None else score.value,
-        "cut": None if outline is None else outline.value,
-        "blank": None if blank is None else size(blank, "--blank"),
-        "carrier": None if carrier is None else size(carrier, "--carrier"),
-    }
+    asked: dict[str, Any] = {"score": score and score.value, "cut": outline and outline.value}
+    asked |= {"blank": None if blank is None else size(blank, "--blank")}
+    asked |= {"carrier": None if carrier is None else size(carrier, "--carrier")}
     if drawings.is_drawing(file):
         others = (unassigned, grid, temperature, relief.value != "none", copies > 1)
         drawings.refuse_options(any(others), registration.value != "holes", options)

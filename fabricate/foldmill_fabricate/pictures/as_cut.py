@@ -60,7 +60,7 @@ def as_cut_picture(plan: Plan, sheet: SheetRecord, fit: Fit | None = None) -> by
 
 
 def _title(plan: Plan, sheet: SheetRecord) -> str:
-    written = plan.remakes.written if plan.remakes else sheet.id
+    written = plan.written(sheet.id)
     name = f"Sheet {sheet.id}" + (f", on which {written} is written" if written != sheet.id else "")
     states = ", ".join(f"{one.program.name} {one.state.value}" for one in sheet.records)
     lost = any(one.state is State.SPOILED for one in sheet.records)

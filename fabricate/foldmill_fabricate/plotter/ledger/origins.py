@@ -8,9 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sqlalchemy import Connection, insert, select
+from sqlalchemy.exc import IntegrityError
 
 from foldmill_fabricate.plotter.errors import LedgerRefused
-from foldmill_fabricate.plotter.ledger import words
+from foldmill_fabricate.plotter.ledger import reading, words
 from foldmill_fabricate.plotter.ledger.tables import ORIGINS
 from foldmill_fabricate.plotter.ledger.values import SheetRecord, State
 
@@ -35,8 +36,11 @@ class Origin:
 
 
 def keep(at: Connection, sheet: str, folder: str, goes_on: str) -> None:
-    """Keep from where a sheet was begun."""
-    at.execute(insert(ORIGINS).values(sheet=sheet, folder=folder, goes_on=goes_on or None))
+    """Keep from where a sheet was begun; raises LedgerRefused for the second to go on with one."""
+    try:
+        at.execute(insert(ORIGINS).values(sheet=sheet, folder=folder, goes_on=goes_on or None))
+    except IntegrityError:
+        raise LedgerRefused(f"Sheet {goes_on} was gone on with by another just now.") from None
 
 
 def origin(at: Connection, sheet: str) -> Origin:
@@ -67,3 +71,5 @@ def take_over(at: Connection, record: SheetRecord, goes_on: GoesOn) -> None:
             f"then, or spoken of. Plan the rest again with foldmill sheets {record.id} --remake."
         )
     words.give_up(at, record.id)
+    if any(one.state is not State.SPOILED for one in reading.sheet(at, record.id).records):
+        raise LedgerRefused(f"Sheet {record.id} was taken up by another just now; look again.")

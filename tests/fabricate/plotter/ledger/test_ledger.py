@@ -24,6 +24,7 @@ from foldmill_fabricate.plotter.ledger import (
     SheetRecord,
     State,
     Word,
+    origins,
 )
 from foldmill_fabricate.plotter.ledger.values import FOLLOWS
 
@@ -299,3 +300,22 @@ def test_a_rest_planned_before_the_last_stroke_is_not_laid(ledger: Ledger) -> No
         ledger.lay("e" * 64, programs, **head, goes_on=GoesOn(sheet, old))
     assert ledger.successor(sheet) is None
     assert ledger.sheet(sheet).records[0].state is State.INTERRUPTED
+
+
+def test_two_who_go_on_with_a_sheet_at_once_do_not_both_get_it(
+    ledger: Ledger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a database that lets both look first, the second to write is refused."""
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "dev")
+    run.advance(3, 2)
+    run.end(State.INTERRUPTED)
+    place = GoesOn(sheet, ledger.sheet(sheet).digest)
+    programs = [Program("1.hpgl", "front", "d" * 64, 10)]
+    head = {"title": "Rest", "machine": "m", "material": "pp-0.75"}
+    first = ledger.lay("e" * 64, programs, **head, goes_on=place)
+    monkeypatch.setattr(origins, "successor", lambda _at, _sheet: "")
+    with pytest.raises(LedgerRefused, match="gone on with by another"):
+        ledger.lay("f" * 64, programs, **head, goes_on=place)
+    monkeypatch.undo()
+    assert ledger.successor(sheet) == first
