@@ -32,9 +32,8 @@ def refuse_options(given: bool, registers: bool, options: Any) -> None:
     if given or registers or options not in (None, Options()):
         raise FoldmillError(
             "An HP-GL drawing is made as it is drawn, on one face: --unassigned, --relief, "
-            "--copies, --grid, --registration, --temperature and those of reading patterns, such as "
-            "--planarise, are for patterns. "
-            "Leave them out."
+            "--copies, --grid, --registration, --temperature and --planarise and its like are for "
+            "patterns. Leave them out."
         )
 
 

@@ -26,7 +26,7 @@ def summary(plan: Plan) -> str:
     size = plan.sheet
     copies = f"{plan.quantity} copies   " if plan.quantity > 1 else ""
     return (
-        f"{copies}Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm "
+        f"{copies}{_made_from(plan)}   Sheet {size.width:g} × {size.height:g} mm "
         f"{_lies(plan)} {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   "
         f"About {max(1, round(plan.figures.seconds / 60))} min of motion"
     )
@@ -45,6 +45,11 @@ def travel(plan: Plan) -> str:
 
 def _lies(plan: Plan) -> str:
     return "on a bed of" if plan.machine.bed.pull else "on a mat of"
+
+
+def _made_from(plan: Plan) -> str:
+    source = plan.whole.source
+    return f"No pattern: {source.name}" if source else f"Pattern {plan.pattern_sha256[:12]}"
 
 
 def _mass(plan: Plan) -> float:

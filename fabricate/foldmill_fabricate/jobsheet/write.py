@@ -97,7 +97,8 @@ def _add_setups(page: Paper, plan: Plan) -> None:
 
 def _add_flip(page: Paper, plan: Plan) -> None:
     if len(plan.passes) < 2:
-        page.heading("All work is on one face: the sheet is not turned over")
+        what = "All that is left" if plan.remakes else "All work"
+        page.heading(f"{what} is on one face: the sheet is not turned over")
         return
     page.heading("The flip")
     page.line(flip_drawing.instruction(plan))
@@ -109,7 +110,7 @@ def _add_flip(page: Paper, plan: Plan) -> None:
 
 
 def _add_register(page: Paper, plan: Plan) -> None:
-    if len(plan.passes) < 2:
+    if len(plan.whole.passes) < 2:
         return
     page.heading(register.heading(plan))
     head, *rows = register.table(plan) or [words.HOLE_HEAD, *words.hole_rows(plan)]

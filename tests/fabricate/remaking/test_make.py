@@ -27,9 +27,11 @@ from fabricate.verify import knife_job
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Face, Gate, Plan
-from foldmill_fabricate.plotter.errors import LedgerRefused
+from foldmill_fabricate.passes import Face, Gate, Plan, ProgramFile
+from foldmill_fabricate.plotter.errors import LedgerRefused, Stopped
 from foldmill_fabricate.plotter.ledger import Entry, Ledger, Said, SheetRecord, State, Word
+from foldmill_fabricate.plotter.sender import Progress
+from foldmill_fabricate.plotter.wish import Wish
 from foldmill_fabricate.remaking import Fate, Spoken, read_spoken, remake, write_remake
 from foldmill_fabricate.sending import Job, open_job
 from foldmill_fabricate.verify.blade import tips
@@ -81,6 +83,28 @@ def test_the_union_of_both_is_the_plan_and_nothing_lies_there_twice(
     assert sum(halves.values()) <= 1  # the one that goes through the sheet and was cut in part
     assert sum(before.values()) < sum(sound.cut.values())
     assert Gate.LOAD not in bench.hands.gates[1:]
+    bench.leave()
+
+
+def test_a_sheet_that_was_given_up_after_a_wish_to_stop_is_made_to_its_end(
+    jobs: Jobs, ledger: Ledger, tmp_path: Path
+) -> None:
+    job, sound = jobs[PENS]
+    bench, wish = Bench(job.plan), Wish()
+
+    def tell(part: ProgramFile, progress: Progress) -> None:
+        if part.name == "reverse.hpgl" and progress.instructions == 12:
+            wish.stop()
+
+    with pytest.raises(Stopped):
+        list(send_job(job, bench.url, bench.hands, tell=tell, ledger=ledger, wish=wish))
+    bench.simulator.clock.sleep(5)
+    bench.simulator.advance()
+    (open_sheet,) = ledger.open_sheets()
+    sheet = ledger.give_up(open_sheet.id)
+    rest = rest_of(job, sheet, seen(sheet, bench, sound), tmp_path / "rest")
+    list(send_job(rest, bench.url, bench.hands, ledger=ledger))
+    assert cut(bench) == sound.cut
     bench.leave()
 
 
