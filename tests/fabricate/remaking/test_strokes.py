@@ -22,7 +22,15 @@ from foldmill_fabricate.verify.programs import prove_programs
 
 PLANS: Mapping[str, Callable[[], Plan]] = {
     slug: partial(small_plan, slug)
-    for slug in (ONE_TOOL, PENS, KNIFE, LASER, "silhouette-like", "grbl-drag-knife")
+    for slug in (
+        ONE_TOOL,
+        PENS,
+        KNIFE,
+        LASER,
+        "silhouette-like",
+        "silhouette-like-matless",
+        "grbl-drag-knife",
+    )
 } | {"swivels": swivelled}
 
 
