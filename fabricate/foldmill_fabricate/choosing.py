@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from foldmill_fabricate.passes import Face, ProgramFile
+from foldmill_fabricate.passes import XY, Face, Plan, ProgramFile, Remakes
 from foldmill_fabricate.plotter.errors import LedgerRefused
 from foldmill_fabricate.plotter.languages import made_ready
-from foldmill_fabricate.plotter.ledger import Ledger, Program, SheetRecord, State
+from foldmill_fabricate.plotter.ledger import GoesOn, Ledger, Program, SheetRecord, State
 from foldmill_fabricate.sending import Job
 
 NEW = "new"
@@ -16,6 +16,8 @@ NEW = "new"
 
 def choose_sheet(ledger: Ledger, job: Job, faces: Sequence[Face], sheet: str) -> SheetRecord:
     """Return the sheet to work on; raises LedgerRefused where that is not certain."""
+    if job.plan.remakes is not None:
+        return _gone_on_with(ledger, job, job.plan.remakes)
     if sheet and sheet.lower() != NEW:
         return _named(ledger, job, sheet)
     if not sheet:
@@ -30,13 +32,47 @@ def choose_sheet(ledger: Ledger, job: Job, faces: Sequence[Face], sheet: str) ->
                 f"such as --sheet {begun[0].id}, or begin another with --sheet new."
             )
         _refuse_planned_again(ledger, job)
+    return _laid(ledger, job)
+
+
+def marks_on_record(ledger: Ledger, sheet: str, plan: Plan) -> tuple[XY, ...]:
+    """Return the marks last measured on a sheet, or while it went by another id; carrier mm."""
+    told = [one.told["marks"] for one in ledger.answers(sheet) if "marks" in one.told]
+    if told:
+        return tuple((float(x), float(y)) for x, y in told[-1])
+    before = plan.remakes
+    return marks_on_record(ledger, before.sheet, before.origin) if before else ()
+
+
+def _laid(ledger: Ledger, job: Job, goes_on: GoesOn | None = None) -> SheetRecord:
     return ledger.lay(
         job.id,
         [_program(job, part) for part in job.plan.programs],
         title=job.plan.title,
         machine=job.plan.machine.slug,
         material=job.plan.material.slug,
+        folder=str(job.path.resolve()),
+        goes_on=goes_on,
     )
+
+
+def _gone_on_with(ledger: Ledger, job: Job, remakes: Remakes) -> SheetRecord:
+    """Return what goes on with a sheet: there is one such sheet only, and never another."""
+    found = ledger.successor(remakes.sheet)
+    if found is None:
+        return _laid(ledger, job, GoesOn(remakes.sheet, remakes.record_sha256))
+    if found.job != job.id:
+        raise LedgerRefused(
+            f"The rest of sheet {remakes.sheet} was begun already from another plan, as "
+            f"{found.id}: {_told(found)}. Go on with that one, or plan what is left of it with "
+            f"foldmill sheets {found.id} --remake."
+        )
+    if not found.is_open:
+        raise LedgerRefused(
+            f"The rest of sheet {remakes.sheet} was made already, as {found.id}: {_told(found)}. "
+            "Nothing of it is cut again."
+        )
+    return found
 
 
 def _named(ledger: Ledger, job: Job, sheet: str) -> SheetRecord:

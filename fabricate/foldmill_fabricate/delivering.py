@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate import gates, recovery, trials
-from foldmill_fabricate.choosing import NEW, choose_sheet
+from foldmill_fabricate.choosing import NEW, choose_sheet, marks_on_record
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.gates import Request
 from foldmill_fabricate.operators import Operator, Verdict
@@ -126,6 +126,7 @@ class _Bench:
     ) -> None:
         self.job, self.operator, self.ledger, self.sheet = job, operator, ledger, laid.id
         self.port, self.device, self.test_cut, self.wish = port, device, test_cut, wish
+        self.marks_seen = bool(job.marks)  # on the sheet as it lies now
         self.returned = laid.is_begun
         """Whether somebody has worked on this sheet, and went away since."""
         self.worked = False
@@ -136,11 +137,8 @@ class _Bench:
         if self.job.marks:
             self._keep_marks(self.job.marks)
             return
-        known = [
-            one.told["marks"] for one in self.ledger.answers(self.sheet) if "marks" in one.told
-        ]
-        if known:
-            self.job = self.job.fitted([(x, y) for x, y in known[-1]])
+        if known := marks_on_record(self.ledger, self.sheet, self.job.plan):
+            self.job = self.job.fitted(known)
 
     def _keep_marks(self, marks: Sequence[tuple[float, float]]) -> None:
         told = {"marks": [list(mark) for mark in marks]}
@@ -176,9 +174,9 @@ class _Bench:
             face,
             setup,
             self.job.plan,
-            self.sheet,
+            self.job.plan.written(self.sheet),
             known[-1] if known else None,
-            bool(self.job.marks),
+            self.marks_seen,
             self.job.path / f"flip-{self.sheet}.png" if gate is Gate.FLIP else None,
         )
 
@@ -231,13 +229,13 @@ class _Work:
                 raise CannotSend(f"Stopped before {self.part.name}, as the operator said.")
             gates.check(request, answer)
             if answer.marks:
-                bench.job = bench.job.fitted(answer.marks)
+                bench.job, bench.marks_seen = bench.job.fitted(answer.marks), True
             self.ledger.answer(self.sheet, self.number, gate, answer.told, answer.who)
 
     def try_presets(self) -> None:
         """Cut in the waste what nobody has tried, before anything of the part is cut so."""
         plan = self.bench.job.plan
-        if self.record.runs or plan.coupon is not None:
+        if self.record.runs or not trials.are_offered(plan):
             return
         for setup in self.setups:
             if trials.first_of_its_process(plan, setup):

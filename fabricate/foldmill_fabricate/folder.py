@@ -1,7 +1,8 @@
 """The job folder: pattern, plan, programs, drawings and job sheet, written together.
 
-``pattern.fold`` is what the plan was made from and ``plan.json`` holds the SHA-256 of it and of
-every program; it is written last, so that a folder with a plan is complete.
+``pattern.fold`` is what the plan was made from, where it was not made from a foreign drawing, and
+``plan.json`` holds the SHA-256 of it and of every program; it is written last, so that a folder
+with a plan is complete.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def write(
     style : of the drawings. Raises UnknownName for a format nobody offers. What an earlier plan
     left in the same folder is removed: a stale file must not reach a machine or mislead a person.
     """
-    contents: dict[str, bytes] = {PATTERN: fold_file.write(fold).encode()}
+    contents: dict[str, bytes] = {}
+    if plan.whole.source is None:  # else there is no pattern
+        contents[PATTERN] = fold_file.write(fold).encode()
     programs: list[ProgramFile] = []
     for slug in formats:
         offered = installed().get(FORMATS, "format", slug)
@@ -61,5 +64,5 @@ def _files_before(folder: Path) -> list[str]:
         before = Plan.model_validate_json((folder / PLAN).read_bytes())
     except (OSError, ValidationError):
         return []
-    names = [*(program.name for program in before.programs), *before.drawings]
+    names = [*(program.name for program in before.programs), *before.drawings, PATTERN]
     return [name for name in names if Path(name).name == name]

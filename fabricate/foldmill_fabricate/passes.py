@@ -11,6 +11,7 @@ stroke again without lifting.
 
 from __future__ import annotations
 
+import hashlib
 from enum import StrEnum
 from typing import Any, Literal
 
@@ -300,6 +301,55 @@ class Figures(_Value):
         return round(self.travel - self.travel_bound, 3) if self.travel_bound else None
 
 
+class PenUse(_Value):
+    """What one pen of a foreign drawing draws."""
+
+    pen: int
+    role: Role | None
+    """None where its lines are left out."""
+
+
+class Source(_Value):
+    """A drawing from elsewhere that a plan was made from: no pattern proves it."""
+
+    name: str
+    sha256: str
+    """of its bytes"""
+    pens: tuple[PenUse, ...]
+    tolerance: float
+    """How far lines may leave the drawing's, mm: arcs became chords, and near corners one."""
+
+
+class There(_Value):
+    """Strokes of one operation that are on the sheet already."""
+
+    setup: int
+    """Number of its set-up in the origin."""
+    role: Role
+    strokes: tuple[int, ...]
+    """1, 2, 3 … over the operation's strokes."""
+
+
+class Remakes(_Value):
+    """A sheet that was left half made: this plan holds only what was missing on it."""
+
+    sheet: str
+    """Its id in the ledger."""
+    origin: Plan
+    """What it was begun from; without the strokes that are there, and but for set-ups that are left
+    out, this plan."""
+    origin_sha256: str
+    """``digest`` of the origin: what the ledger knows the sheet's job by."""
+    record_sha256: str
+    """``digest`` of the ledger's record of it when this was planned."""
+    there: tuple[There, ...]
+
+    @property
+    def written(self) -> str:
+        """The id that is written on the sheet: the one it was begun with."""
+        return self.origin.written(self.sheet)
+
+
 class Plan(_Value):
     """Everything that is done to one sheet, and what it was made from."""
 
@@ -331,6 +381,10 @@ class Plan(_Value):
     """Holes at vertices."""
     coupon: Coupon | None = None
     """What is tried on it, where it is a coupon and not a fold."""
+    source: Source | None = None
+    """The drawing it was made from, where it was not made from a pattern."""
+    remakes: Remakes | None = None
+    """Which sheet it goes on with; None where it begins one."""
     passes: tuple[Pass, ...]
     figures: Figures
     findings: tuple[Finding, ...] = ()
@@ -343,6 +397,20 @@ class Plan(_Value):
         """Where each copy lies, the first one first."""
         return (self.placement, *self.copies)
 
+    @property
+    def whole(self) -> Plan:
+        """The plan that its sheet was begun from: itself, where it goes on with none."""
+        return self.remakes.origin.whole if self.remakes else self
+
+    def written(self, sheet: str) -> str:
+        """Return the id that is written on a sheet: the one it was begun with."""
+        return self.remakes.written if self.remakes else sheet
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the plan: what the ledger knows a job by."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
     @model_serializer(mode="wrap")
     def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return _without(write(self), quantity=1, copies=[])
+        return _without(write(self), quantity=1, copies=[], remakes=None, source=None)

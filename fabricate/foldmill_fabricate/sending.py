@@ -5,7 +5,6 @@ Nothing is sent that was not verified in this very call, so an edited file never
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -39,7 +38,7 @@ class Job:
     @property
     def id(self) -> str:
         """SHA-256 of the plan: what the ledger knows the job by."""
-        return hashlib.sha256(self.plan.model_dump_json().encode()).hexdigest()
+        return self.plan.digest
 
     def fitted(self, marks: Sequence[tuple[float, float]]) -> Job:
         """Return the job with its reverse written anew to fit measured marks, and proved again.

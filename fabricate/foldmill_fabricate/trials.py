@@ -13,6 +13,15 @@ from foldmill_fabricate.sending import Job
 from foldmill_fabricate.verify.trial import prove_trial
 
 
+def are_offered(plan: Plan) -> bool:
+    """Tell whether a test cut can be laid in the waste.
+
+    A coupon is one itself; what goes on with a sheet was tried when that was begun; and of a
+    foreign drawing nobody knows what is waste.
+    """
+    return plan.coupon is None and plan.remakes is None and plan.source is None
+
+
 def first_of_its_process(plan: Plan, setup: SetUp) -> bool:
     """Tell whether no set-up before this one goes the same way about it."""
     every = [one for work in plan.passes for one in work.setups]

@@ -140,6 +140,12 @@ def plan(
         str | None,
         typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24."),
     ] = None,
+    pen: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Of an HP-GL drawing: PEN=score, cut, inner or skip; for each of its pens."
+        ),
+    ] = None,
     to: Formats = None,
     options: Any = None,
     profile: Annotated[
@@ -152,26 +158,36 @@ def plan(
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
     from foldmill_fabricate import folder, profiles
+    from foldmill_fabricate.cli import drawings
+    from foldmill_fabricate.foreign import write_drawing
     from foldmill_fabricate.importing.reading import require_answers
     from foldmill_fabricate.plan import make
     from foldmill_fabricate.profiles import Style
 
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)
+    look = Style(profiles.find(profile), "R12" if dxf is DxfChoice.R12 else "R2000")
+    asked: dict[str, Any] = {"score": score and score.value, "cut": outline and outline.value}
+    asked |= {"blank": None if blank is None else size(blank, "--blank")}
+    asked |= {"carrier": None if carrier is None else size(carrier, "--carrier")}
+    if drawings.is_drawing(file):
+        others = (unassigned, grid, temperature, relief.value != "none", copies > 1)
+        drawings.refuse_options(any(others), registration.value != "holes", options)
+        drawn = drawings.planned(file, pen or [], chosen_material, chosen_machine, asked)
+        written = write_drawing(drawn, output, formats, look)
+        say(as_json, written.model_dump(mode="json"), describe(written))
+        return
+    drawings.refuse_pens(pen or [])
     found = imported(file, options)
     require_answers(found, str(file))
     fold = found.fold
-    look = Style(profiles.find(profile), "R12" if dxf is DxfChoice.R12 else "R2000")
     made = make(
         fold,
         chosen_material,
         chosen_machine,
-        blank=None if blank is None else size(blank, "--blank"),
-        carrier=None if carrier is None else size(carrier, "--carrier"),
+        **asked,
         flip=flip.value,
         unassigned=None if unassigned is None else unassigned.value,
-        score=None if score is None else score.value,
-        cut=None if outline is None else outline.value,
         relief=relief.value,
         copies=copies,
         grid=None if grid is None else counts(grid, "--grid"),

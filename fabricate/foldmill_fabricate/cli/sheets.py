@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from foldmill_fabricate.cli.making import Formats, describe
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
@@ -22,14 +24,45 @@ def sheets(
     spoiled: Annotated[
         bool, typer.Option("--spoiled", help="Give this sheet up: nothing more is cut on it.")
     ] = False,
+    remake: Annotated[
+        bool, typer.Option("--remake", help="Plan what is missing on this sheet, into --output.")
+    ] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="A PNG of both faces as cut; with --remake a folder."),
+    ] = None,
+    doubtful: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="With --remake: cut, missing, or the strokes in doubt that are missing, as 3,5-8; "
+            "the others are cut then. PROGRAM: before it where there are several; repeatable."
+        ),
+    ] = None,
+    half: Annotated[
+        list[str] | None,
+        typer.Option(help="With --remake: strokes in doubt that are cut in part; repeatable."),
+    ] = None,
+    job: Annotated[
+        Path | None,
+        typer.Option(help="The folder it was begun from, where that was moved since."),
+    ] = None,
+    to: Formats = None,
     as_json: AsJson = False,
 ) -> None:
-    """List the sheets that are begun and not finished, or tell all about one."""
+    """List the sheets that are begun and not finished, or tell all about one.
+
+    With --output it draws one as cut, or plans with --remake what is missing on it.
+    """
     from foldmill import FoldmillError
+    from foldmill_fabricate.cli import remaking
     from foldmill_fabricate.plotter.ledger import Ledger, ledger_file
 
-    if spoiled and not name:
-        raise FoldmillError("--spoiled gives one sheet up: name it by its id.")
+    if (spoiled or remake or output) and not name:
+        raise FoldmillError("--spoiled, --remake and --output are about one sheet: name its id.")
+    if remake and not output:
+        raise FoldmillError("--remake writes a job folder: name it with --output.")
+    if (doubtful or half) and not remake:
+        raise FoldmillError("--doubtful and --half say what --remake plans; give that, too.")
     if not name and not ledger_file().exists():
         say(as_json, [], "No sheet is under work.")
         return
@@ -40,6 +73,13 @@ def sheets(
         return
     if spoiled:
         ledger.give_up(ledger.sheet(name).id)
+    if remake and output:
+        made = remaking.rest(ledger, name, output, doubtful or [], half or [], job, to)
+        say(as_json, made.model_dump(mode="json"), describe(made))
+        return
+    if output:
+        remaking.draw(ledger, name, output, job)
+        typer.echo(f"drawn: {output}", err=as_json)
     sheet = ledger.sheet(name)
     history = ledger.history(sheet.id)
     say(as_json, _row(sheet) | {"history": history}, _whole(sheet, history))

@@ -41,6 +41,8 @@ class Ways(NamedTuple):
     """(k + 1) where each way begins and the last one ends; each has at least two points."""
     light: list[bool]
     """(k) whether the blade only rests on the sheet, to be turned."""
+    strokes: list[int]
+    """(k) which stroke of the set-up each is part of, counted over its operations; -1 for none."""
 
     def pairs(self) -> list[str]:
         """Return every point as two numbers with a comma between them."""
@@ -106,11 +108,11 @@ def ways(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Ways:
 
     Raises DoesNotFit as ``steps`` does.
     """
-    points, counts, light = joined(
+    points, counts, light, strokes = joined(
         setup, plan.machine, lambda places: seen_by_machine(plan, face, places, fit)
     )
     if not len(points):
-        return Ways(np.zeros((0, 2), np.int64), [0], [])
+        return Ways(np.zeros((0, 2), np.int64), [0], [], [])
     found = steps(points, plan.machine.axes, f'Set-up {setup.number} "{setup.name}"')
     way = np.repeat(np.arange(len(counts)), counts)
     moved = np.ones(len(found), bool)
@@ -118,7 +120,9 @@ def ways(plan: Plan, face: Face, setup: SetUp, fit: Fit | None) -> Ways:
     kept = np.bincount(way[moved], minlength=len(counts))
     real = kept > 1
     ends = np.concatenate([[0], np.cumsum(kept[real])])
-    return Ways(found[moved & real[way]], ends.tolist(), light[real].tolist())
+    return Ways(
+        found[moved & real[way]], ends.tolist(), light[real].tolist(), strokes[real].tolist()
+    )
 
 
 def steps(points: ArrayLike, axes: Axes, where: str) -> Steps:

@@ -26,7 +26,7 @@ def summary(plan: Plan) -> str:
     size = plan.sheet
     copies = f"{plan.quantity} copies   " if plan.quantity > 1 else ""
     return (
-        f"{copies}Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm "
+        f"{copies}{_made_from(plan)}   Sheet {size.width:g} × {size.height:g} mm "
         f"{_lies(plan)} {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   "
         f"About {max(1, round(plan.figures.seconds / 60))} min of motion"
     )
@@ -45,6 +45,11 @@ def travel(plan: Plan) -> str:
 
 def _lies(plan: Plan) -> str:
     return "on a bed of" if plan.machine.bed.pull else "on a mat of"
+
+
+def _made_from(plan: Plan) -> str:
+    source = plan.whole.source
+    return f"No pattern: {source.name}" if source else f"Pattern {plan.pattern_sha256[:12]}"
 
 
 def _mass(plan: Plan) -> float:
@@ -87,9 +92,15 @@ def before(plan: Plan, face: Face, setup: SetUp) -> str:
     doing = {
         Gate.LOAD: f"load the sheet, {face} up, lower left corner at {_corner(plan)}",
         Gate.TOOL: _tooling(plan, setup),
+        Gate.RE_REGISTER: _come_back(plan, face),
         Gate.FLIP: f"turn the sheet over {plan.flip.kind} as drawn below, and find the marks",
     }
     return "; ".join(doing[gate] for gate in setup.gates)
+
+
+def _come_back(plan: Plan, face: Face) -> str:
+    name = f" {plan.remakes.written}" if plan.remakes else ""
+    return f"lay sheet{name} as it lay, {face} up, lower left corner at {_corner(plan)}"
 
 
 def _tooling(plan: Plan, setup: SetUp) -> str:

@@ -23,15 +23,18 @@ def write(plan: Plan, fold: Fold) -> bytes:
     """Return the job sheet of a plan as PDF: pages of A4 at true scale."""
     with canvas.own_style():
         made = list(pages(plan, fold))
+        source = plan.whole.source
+        origin = source.name if source else f"pattern {plan.pattern_sha256[:12]}"
         for number, page in enumerate(made, start=1):
-            whole = f"{plan.title}, pattern {plan.pattern_sha256[:12]}"
-            page.foot(f"{whole}: page {number} of {len(made)}")
+            page.foot(f"{plan.title}, {origin}: page {number} of {len(made)}")
         return _to_pdf(made)
 
 
 def pages(plan: Plan, fold: Fold) -> Iterator[Paper]:
     """Yield the pages: for the machine, then for whoever reads a coupon or folds the part."""
     yield _machine_page(plan, fold.pattern)
+    if plan.whole.source is not None:
+        return  # a drawing from elsewhere: nobody knows how it folds
     if plan.coupon is None:
         yield from folding.pages(plan, fold, _stamp(plan))
         return
@@ -94,7 +97,8 @@ def _add_setups(page: Paper, plan: Plan) -> None:
 
 def _add_flip(page: Paper, plan: Plan) -> None:
     if len(plan.passes) < 2:
-        page.heading("All work is on one face: the sheet is not turned over")
+        what = "All that is left" if plan.remakes else "All work"
+        page.heading(f"{what} is on one face: the sheet is not turned over")
         return
     page.heading("The flip")
     page.line(flip_drawing.instruction(plan))
@@ -106,7 +110,7 @@ def _add_flip(page: Paper, plan: Plan) -> None:
 
 
 def _add_register(page: Paper, plan: Plan) -> None:
-    if len(plan.passes) < 2:
+    if len(plan.whole.passes) < 2:
         return
     page.heading(register.heading(plan))
     head, *rows = register.table(plan) or [words.HOLE_HEAD, *words.hole_rows(plan)]

@@ -134,7 +134,7 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
             force=machine.tools.force(process.force),
             speed=process.speed,
             gates=gates(before.face if before else None, draft.face, changes, machine),
-            swivel_force=_swivel_force(draft, material, machine),
+            swivel_force=swivel_force(draft.process, material, machine),
             operations=draft.operations,
         )
         setups.append((draft.face, setup))
@@ -146,11 +146,11 @@ def _number(drafts: list[_Draft], material: Material, machine: Machine) -> tuple
     )
 
 
-def _swivel_force(draft: _Draft, material: Material, machine: Machine) -> float:
+def swivel_force(process: str, material: Material, machine: Machine) -> float:
     """Return the force for turning a blade out of the groove: where a program can do that."""
     possible = machine.tools.host_offset > 0 and machine.dialect.force
     possible = possible and machine.language != "gcode"  # which knows no force
-    return material.cut.swivel_force if possible and draft.process == "cut" else 0.0
+    return material.cut.swivel_force if possible and process == "cut" else 0.0
 
 
 def gates(before: Face | None, face: Face, changes: bool, machine: Machine) -> tuple[Gate, ...]:

@@ -9,8 +9,8 @@ gives it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -58,16 +58,23 @@ def lifted_ways(
     On a light way the tip rests on the sheet and is turned; then the blade goes in again. Takes
     what ``holder_ways`` takes.
     """
-    found = []
+    return list(chain.from_iterable(lifted_parts(ways, offset, heading, grid)))
+
+
+def lifted_parts(
+    ways: Sequence[ArrayLike], offset: float, heading: float, grid: Grid | None = None
+) -> Iterator[list[tuple[Floats, bool]]]:
+    """Yield of each way of the tip the holder's ways that it is broken into."""
     for way in ways:
+        parts = []
         for gentle in _between_corners(_moving(np.asarray(way, float))):
             course = float(_courses(gentle)[0])
             if abs(_turn(heading, course)) > np.radians(SHARP_DEG):
                 turned, heading = _led(_about(gentle[0], offset, heading, course), offset, grid)
-                found.append((turned, True))
+                parts.append((turned, True))
             holder, heading = _led(_along(gentle, offset, heading), offset, grid)
-            found.append((holder, False))
-    return found
+            parts.append((holder, False))
+        yield parts
 
 
 def last_heading(way: ArrayLike, heading: float = 0.0) -> float:

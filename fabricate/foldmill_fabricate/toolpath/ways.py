@@ -23,6 +23,9 @@ from foldmill_fabricate.toolpath.traversal import traversal, traversals
 Floats = NDArray[np.float64]
 See = Callable[[ArrayLike], Floats]
 
+NO_STROKE = -1
+"""In place of a stroke's number: a way in the waste that turns the blade."""
+
 
 class Way(NamedTuple):
     """One motion with the tool down."""
@@ -31,6 +34,8 @@ class Way(NamedTuple):
     """(n, 2) mm, as the machine sees the sheet."""
     light: bool = False
     """Whether the blade only rests on the sheet, to be turned."""
+    stroke: int = NO_STROKE
+    """Which stroke of the set-up it is a part of, counted over all its operations."""
 
 
 class Joined(NamedTuple):
@@ -42,6 +47,8 @@ class Joined(NamedTuple):
     """(k,) of points of each."""
     light: NDArray[np.bool_]
     """(k,) whether the blade only rests on the sheet."""
+    strokes: NDArray[np.intp]
+    """(k,) the stroke of the set-up that each is a part of, or ``NO_STROKE``."""
 
 
 def joined(setup: SetUp, machine: Machine, see: See) -> Joined:
@@ -50,32 +57,42 @@ def joined(setup: SetUp, machine: Machine, see: See) -> Joined:
         found = ways(setup, machine, see)
         counts = np.array([len(way.points) for way in found], np.intp)
         light = np.array([way.light for way in found], bool)
-        return Joined(np.vstack([np.zeros((0, 2)), *(way.points for way in found)]), counts, light)
+        points = np.vstack([np.zeros((0, 2)), *(way.points for way in found)])
+        return Joined(points, counts, light, np.array([way.stroke for way in found], np.intp))
     laid = [traversals(operation.strokes, operation) for operation in setup.operations]
     counts = np.concatenate([np.zeros(0, np.intp), *(each.counts for each in laid)])
     points = np.vstack([np.zeros((0, 2)), *(each.points for each in laid)])
-    return Joined(see(points), counts, np.zeros(len(counts), bool))
+    return Joined(see(points), counts, np.zeros(len(counts), bool), np.arange(len(counts)))
 
 
 def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
     """Return the ways of a set-up in order of work; see : sheet points (n, 2) to the machine's."""
     tips: list[Floats] = []
+    owners: list[int] = []
+    begun = 0
     for operation in setup.operations:
+        own = range(begun, begun + len(operation.strokes))
+        begun += len(operation.strokes)
         if machine.bed.pull:
-            for stroke in operation.strokes:
-                tips += stroke_ways(stroke, operation, machine, see)
+            for number, stroke in zip(own, operation.strokes, strict=True):
+                pulls = stroke_ways(stroke, operation, machine, see)
+                tips += pulls
+                owners += [number] * len(pulls)
             continue
         laid = traversals(operation.strokes, operation)
         tips += np.split(see(laid.points), np.cumsum(laid.counts)[:-1])
+        owners += own
     offset = machine.tools.host_offset
     if not offset:
-        return [Way(tip) for tip in tips]
+        return [Way(tip, stroke=k) for k, tip in zip(owners, tips, strict=True)]
     grid = Grid(machine.axes)
     entry = [Way(grid.rounded(see(setup.lead_in)))] if setup.lead_in else []
     heading = knife.last_heading(entry[0].points) if entry else 0.0
     if setup.swivel_force:
-        return entry + [Way(*way) for way in knife.lifted_ways(tips, offset, heading, grid)]
-    return entry + [Way(way) for way in knife.holder_ways(tips, offset, heading, grid)]
+        lifted = zip(owners, knife.lifted_parts(tips, offset, heading, grid), strict=True)
+        return entry + [Way(*part, k) for k, parts in lifted for part in parts]
+    holders = zip(owners, knife.holder_ways(tips, offset, heading, grid), strict=True)
+    return entry + [Way(way, stroke=k) for k, way in holders]
 
 
 def stroke_ways(stroke: Stroke, operation: Operation, machine: Machine, see: See) -> list[Floats]:

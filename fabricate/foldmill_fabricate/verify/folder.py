@@ -19,6 +19,7 @@ from foldmill_fabricate.verify.verification import Verification, verify
 
 PLAN = "plan.json"
 PATTERN = "pattern.fold"
+_NO_PATTERN = CreasePattern.from_lines([], [], [], [])
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +41,10 @@ def read_folder(path: str | Path) -> JobFiles:
     """
     folder = Path(path)
     _look_for(folder, PLAN)
-    data = _bytes(folder, PATTERN)
-    pattern = _pattern(data, folder / PATTERN)  # first: reading it takes much for a moment
+    data, pattern = b"", _NO_PATTERN
+    if (folder / PATTERN).exists() or _plan(folder).whole.source is None:
+        data = _bytes(folder, PATTERN)
+        pattern = _pattern(data, folder / PATTERN)  # first: reading it takes much for a moment
     plan = _plan(folder)
     named = [folder / Path(file.name).name for file in plan.programs]
     others = [file for suffix in SUFFIXES for file in folder.glob(f"*{suffix}")]

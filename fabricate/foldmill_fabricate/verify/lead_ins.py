@@ -41,6 +41,16 @@ def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
     return Finding(code, Severity.ERROR, where, message, remedy)
 
 
+def prove_turned(plan: Plan) -> list[Finding]:
+    """Check that every set-up's lead-in is there where one is needed, and turns any blade."""
+    offset = modelled_offset(plan.machine)
+    found: list[Finding] = []
+    for setup in (setup for side in plan.passes for setup in side.setups):
+        where = f"set-up {setup.number} ({setup.name})"
+        found += _settling(setup, offset, where) if setup.lead_in else _missing(where, offset)
+    return found
+
+
 def _missing(where: str, offset: float) -> list[Finding]:
     if not offset:
         return []

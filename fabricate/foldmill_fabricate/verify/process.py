@@ -28,6 +28,7 @@ _ORDER = list(Role)
 _SUPERFLUOUS = {
     Gate.FLIP: "The sheet is turned over here, and the face stays the same.",
     Gate.LOAD: "A new sheet is loaded here, with the work on the last one half done.",
+    Gate.RE_REGISTER: "A sheet comes back here that was never left.",
 }
 
 
@@ -41,14 +42,18 @@ def prove_process(plan: Plan) -> list[Finding]:
 
 def prove_order(plan: Plan) -> list[Finding]:
     """Check passes, order of roles, gates, and that the processes suit material and machine."""
+    return [*_pass_findings(plan), *prove_work(plan), *_depth_findings(plan)]
+
+
+def prove_work(plan: Plan) -> list[Finding]:
+    """Check that set-ups are numbered in order of work, and what the operator does before each."""
     setups = [(side.face, setup) for side in plan.passes for setup in side.setups]
-    found = _pass_findings(plan)
+    found = []
     numbers = [setup.number for _, setup in setups]
     if numbers != list(range(1, len(numbers) + 1)):
         text = f"The set-ups are numbered {numbers}, not 1, 2, 3 … in order of work."
         found.append(_error("set-ups", "plan", text))
-    found += _gate_findings(plan, setups)
-    return found + _depth_findings(plan)
+    return found + _gate_findings(plan, setups)
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
@@ -102,7 +107,7 @@ def _gate_findings(plan: Plan, setups: list[tuple[Face, SetUp]]) -> list[Finding
         before = setups[k - 1] if k else None
         needed = []
         if before is None:
-            needed.append(Gate.LOAD)
+            needed.append(Gate.RE_REGISTER if plan.remakes else Gate.LOAD)
         elif before[0] is not face:
             needed.append(Gate.FLIP)
         if by_hand and (before is None or _tooling(before[1]) != _tooling(setup)):

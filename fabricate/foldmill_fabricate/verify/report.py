@@ -73,6 +73,8 @@ def _kind(kind: list[Finding], number: int) -> list[str]:
 
 
 def _verdict(verification: Verification) -> str:
+    if verification.ok and not verification.is_derived:
+        return "Verdict: the programs draw the plan, which is not derived from a pattern. Cut it."
     if verification.ok:
         return "Verdict: the programs draw the plan, and the plan is the pattern's. Cut it."
     errors = sum(f.severity is Severity.ERROR for f in verification.findings)

@@ -35,6 +35,10 @@ because both ends of every piece are rounded to steps."""
 SLACK_BLADE: Final = 5.0
 """Times BLADE_MM. The same for a dragged blade, which goes to and fro a little at corners."""
 
+ALONG_MM: Final = 0.1
+"""mm. Two lines of a foreign drawing may run along each other for as long as this: where they cross
+at a small angle."""
+
 BESIDE_MM: Final = 1.0
 """mm. A line this near to a lost stroke is that stroke, moved: closer than creases lie together."""
 

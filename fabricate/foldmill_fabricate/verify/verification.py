@@ -15,6 +15,9 @@ from foldmill_fabricate.verify.programs import ProgramProof, prove_programs
 from foldmill_fabricate.verify.rule import prove_rule
 from foldmill_fabricate.verify.virtual_sheet import Line, drawn_length
 
+TOLD = frozenset({"remakes"})
+"""Findings of the plan that are told here, though nothing is wrong: what was proved, and what not.
+"""
 MOST = 12
 """Findings of one kind that are told one by one; the rest are counted."""
 
@@ -53,6 +56,8 @@ class Verification:
     """The virtual sheet: everything drawn, in order of work, in sheet coordinates."""
     faults: tuple[Fault, ...] = ()
     """The lines that are missing, extra or moved, for a picture."""
+    is_derived: bool = True
+    """Whether there was a pattern to prove the plan against."""
 
     @property
     def ok(self) -> bool:
@@ -72,19 +77,21 @@ def verify(
     programs are not the recorded ones, so that only their drawing is compared.
     """
     proof = prove_programs(plan, programs, fit)
-    own = [finding for finding in plan.findings if finding.severity is Severity.ERROR]
+    own = [f for f in plan.findings if f.severity is Severity.ERROR or f.code in TOLD]
     findings = _digest([*own, *proof.findings, *prove_rule(plan, pattern)])
     lines = tuple(line for replay in proof.replays for line in replay.drawing.lines)
     figures = _figures(plan, pattern, proof, lines)
     faults = _faults(plan, pattern, proof) if has_errors(findings) else ()
-    return Verification(plan.title, findings, figures, lines, faults)
+    is_derived = plan.whole.source is None
+    return Verification(plan.title, findings, figures, lines, faults, is_derived)
 
 
 def _faults(plan: Plan, pattern: CreasePattern, proof: ProgramProof) -> tuple[Fault, ...]:
     drawn = [f for replay in proof.replays for f in drawn_faults(replay.drawing, replay.file.face)]
-    if plan.coupon is not None:
+    if plan.coupon is not None or plan.whole.source is not None:
         return tuple(drawn)
-    return (*drawn, *planned_faults(Asked(plan, pattern), planned(plan)))
+    whole = plan.whole
+    return (*drawn, *planned_faults(Asked(whole, pattern), planned(whole)))
 
 
 def _digest(findings: Sequence[Finding]) -> tuple[Finding, ...]:

@@ -76,10 +76,11 @@ def _blank_findings(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
     if abs(plan.flip.axis - middle) > tolerances.PLAN_MM:
         text = f"The sheet is turned about {plan.flip.axis:g} mm; its middle is at {middle:g} mm."
         found.append(_error("flip-axis", "plan", text))
-    return found + _carrier_findings(plan)
+    return found + carrier_findings(plan)
 
 
-def _carrier_findings(plan: Plan) -> list[Finding]:
+def carrier_findings(plan: Plan) -> list[Finding]:
+    """Check that the blank lies on its carrier, and the carrier in the machine."""
     sheet, bed = plan.sheet, plan.machine.bed
     spare = [sheet.carrier_width - sheet.width, sheet.carrier_height - sheet.height]
     over = max(-sheet.dx, -sheet.dy, sheet.dx - spare[0], sheet.dy - spare[1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 _PLAN = "Plan again into this folder; the plan is not edited by hand."
 _WRITE = "Plan again into this folder; programs are neither edited, renamed nor mixed."
+_REST = "Plan the rest of the sheet again, with foldmill sheets ID --remake."
 _SETTINGS = "Plan again with the material and the machine that are used."
 
 KINDS: dict[str, tuple[str, str]] = {
@@ -28,6 +29,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "missing-score": ("A crease is not scored", _PLAN),
     "missing-stroke": ("A stroke of the plan is not drawn", _WRITE),
     "moved": ("A stroke lies beside its place", _WRITE),
+    "no-pattern": ("There is no pattern to prove it against", ""),
     "no-such-line": ("The plan has a line that the pattern does not have", _PLAN),
     "not-to-score": ("A line is scored that is no fold", _PLAN),
     "order": ("The work is done in the wrong order", _WRITE),
@@ -36,6 +38,10 @@ KINDS: dict[str, tuple[str, str]] = {
     "outside-range": ("A program leaves the range of the machine", _WRITE),
     "overcut-on-score": ("A score runs on past its end", _PLAN),
     "part-clearance": ("The part is too near to the blank's edge", "Plan with a larger --blank."),
+    "remake-origin": ("The plan that a sheet was begun from was changed", _REST),
+    "remake-setting": ("What is left of a sheet is planned otherwise than it was begun", _REST),
+    "remake-stroke": ("What is planned is not what is left of the sheet", _REST),
+    "remake-there": ("What is said to be on the sheet is not in its plan", _REST),
     "repeats": ("A stroke is repeated too often or too rarely", _WRITE),
     "score-depth": ("Scores are cut to the wrong depth", _SETTINGS),
     "scored-on-both": ("A crease is scored on both faces", _PLAN),

@@ -9,6 +9,7 @@ doubtful and what is left.
 from __future__ import annotations
 
 from foldmill_fabricate.plotter.ledger.ledger import Ledger, ledger_file
+from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
 from foldmill_fabricate.plotter.ledger.reading import account
 from foldmill_fabricate.plotter.ledger.run import Run
 from foldmill_fabricate.plotter.ledger.values import (
@@ -25,7 +26,9 @@ from foldmill_fabricate.plotter.ledger.words import Said
 __all__ = [
     "Answered",
     "Entry",
+    "GoesOn",
     "Ledger",
+    "Origin",
     "Program",
     "Record",
     "Run",

@@ -14,8 +14,9 @@ from sqlalchemy import Connection, insert, select
 from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
-from foldmill_fabricate.plotter.ledger import reading, words, writing
+from foldmill_fabricate.plotter.ledger import origins, reading, words, writing
 from foldmill_fabricate.plotter.ledger.advancing import Advance
+from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
 from foldmill_fabricate.plotter.ledger.reading import (
     not_ready,
     program_row,
@@ -83,9 +84,21 @@ class Ledger:
         self._engine.dispose()
 
     def lay(
-        self, job: str, programs: Sequence[Program], *, title: str, machine: str, material: str
+        self,
+        job: str,
+        programs: Sequence[Program],
+        *,
+        title: str,
+        machine: str,
+        material: str,
+        folder: str = "",
+        goes_on: GoesOn | None = None,
     ) -> SheetRecord:
-        """Begin a new sheet of a job and return it; job : SHA-256 of its plan."""
+        """Begin a new sheet of a job and return it; job : SHA-256 of its plan.
+
+        folder : from which it is begun. goes_on : the sheet that lies there half made, and is given
+        up; raises LedgerRefused where that is not as it was, or another goes on with it.
+        """
         head = {"job": job, "title": title, "machine": machine, "material": material}
         with self._engine.begin() as at:
             name = _free_name(at, job)
@@ -94,15 +107,28 @@ class Ledger:
             rows = [{**ready, "number": k, **vars(one)} for k, one in enumerate(programs)]
             at.execute(insert(PROGRAMS), rows)
             note(at, self._now(), name, None, "laid")
+            if goes_on:
+                origins.take_over(at, reading.sheet(at, goes_on.sheet), goes_on)
+                note(at, self._now(), goes_on.sheet, None, f"its rest is made as sheet {name}")
+                note(at, self._now(), name, None, f"goes on with sheet {goes_on.sheet}")
+            origins.keep(at, name, folder, goes_on.sheet if goes_on else "")
         return self.sheet(name)
+
+    def origin(self, sheet: str) -> Origin:
+        """Return from which folder a sheet was begun, and which sheet it goes on with."""
+        with reading_of(self._engine) as at:
+            return origins.origin(at, sheet)
+
+    def successor(self, sheet: str) -> SheetRecord | None:
+        """Return the sheet that goes on with one that was given up."""
+        with reading_of(self._engine) as at:
+            after = origins.successor(at, sheet)
+            return reading.sheet(at, after) if after else None
 
     def sheet(self, name: str) -> SheetRecord:
         """Return a sheet; raises LedgerRefused where there is none of that id."""
         with reading_of(self._engine) as at:
-            row = at.execute(select(SHEETS).where(SHEETS.c.id == name.upper())).first()
-            if row is None:
-                raise LedgerRefused(f"The ledger knows no sheet {name!r}; look at its id again.")
-            return sheet_record(at, row)
+            return reading.sheet(at, name)
 
     def open_sheets(self, job: str | None = None) -> list[SheetRecord]:
         """Return the sheets that were begun and are not finished, the newest first."""

@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import Connection, Row, select
 
 from foldmill_fabricate.plotter.errors import LedgerRefused
-from foldmill_fabricate.plotter.ledger.tables import ANSWERS, PROGRAMS, RUNS
+from foldmill_fabricate.plotter.ledger.tables import ANSWERS, PROGRAMS, RUNS, SHEETS
 from foldmill_fabricate.plotter.ledger.values import (
     Answered,
     Entry,
@@ -30,6 +30,14 @@ def program_row(at: Connection, sheet: str, number: int) -> Row[Any]:
     if row is None:
         raise LedgerRefused(f"Sheet {sheet} has no program {number + 1}.")
     return row
+
+
+def sheet(at: Connection, name: str) -> SheetRecord:
+    """Return a sheet; raises LedgerRefused where there is none of that id."""
+    row = at.execute(select(SHEETS).where(SHEETS.c.id == name.upper())).first()
+    if row is None:
+        raise LedgerRefused(f"The ledger knows no sheet {name!r}; look at its id again.")
+    return sheet_record(at, row)
 
 
 def sheet_record(at: Connection, row: Row[Any]) -> SheetRecord:

@@ -52,6 +52,13 @@ PROGRAMS = Table(
     Column("overlap", Float, nullable=False, server_default="0"),
     Column("note", Text, nullable=False, server_default=""),
 )
+ORIGINS = Table(
+    "origins",
+    METADATA,
+    Column("sheet", ForeignKey("sheets.id"), primary_key=True),
+    Column("folder", Text, nullable=False),
+    Column("goes_on", String(8), unique=True),
+)
 RUNS = Table(
     "runs",
     METADATA,

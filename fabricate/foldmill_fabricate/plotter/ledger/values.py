@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -153,6 +155,15 @@ class SheetRecord:
     begun: str
     """UTC, ISO 8601."""
     records: tuple[Record, ...]
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of what is certain, doubtful and left: it changes with every stroke and word."""
+        told = [
+            (one.number, vars(one.program), one.first, one.vertex, [vars(run) for run in one.runs])
+            for one in self.records
+        ]
+        return hashlib.sha256(json.dumps([self.id, told]).encode()).hexdigest()
 
     @property
     def is_open(self) -> bool:

@@ -15,7 +15,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
-from foldmill_fabricate.plotter.ledger import Ledger, Program, Said, SheetRecord, State, Word
+from foldmill_fabricate.plotter.ledger import (
+    GoesOn,
+    Ledger,
+    Origin,
+    Program,
+    Said,
+    SheetRecord,
+    State,
+    Word,
+    origins,
+)
 from foldmill_fabricate.plotter.ledger.values import FOLLOWS
 
 JOB = "a" * 64
@@ -241,3 +251,71 @@ def test_a_killed_process_leaves_every_stroke_it_wrote_down(tmp_path: Path, stro
     assert found.doubtful == tuple(range(max(0, strokes - 1), strokes))
     assert found.left == tuple(range(strokes, STROKES))
     ledger.close()
+
+
+def test_a_sheet_is_gone_on_with_once_and_given_up_with_that(ledger: Ledger) -> None:
+    first = lay(ledger)
+    run = ledger.claim(first.id, 0, "dev")
+    run.advance(4, 2)
+    run.end(State.INTERRUPTED)
+    place = GoesOn(first.id, ledger.sheet(first.id).digest)
+    programs = [Program("1-front-score.hpgl", "front", "d" * 64, 10)]
+    head = {"title": "Rest", "machine": "m", "material": "pp-0.75"}
+    second = ledger.lay("e" * 64, programs, **head, folder="out/rest", goes_on=place)
+    assert ledger.origin(second.id) == Origin("out/rest", first.id)
+    assert ledger.successor(first.id) == second
+    assert ledger.sheet(first.id).records[0].state is State.SPOILED
+    with pytest.raises(LedgerRefused, match=f"gone on with already, as {second.id}"):
+        ledger.lay("f" * 64, programs, **head, goes_on=place)
+    assert [sheet.id for sheet in ledger.open_sheets()] == []
+
+
+def test_what_a_sheet_holds_has_another_digest_after_each_stroke_and_word(ledger: Ledger) -> None:
+    sheet = lay(ledger).id
+    digests = [ledger.sheet(sheet).digest]
+    run = ledger.claim(sheet, 0, "dev")
+    for sent in range(1, 5):
+        run.advance(sent, sent - 1)
+        digests.append(ledger.sheet(sheet).digest)
+    run.end(State.INTERRUPTED)
+    ledger.say(sheet, 0, Said(Word.GO_ON, 3))
+    digests.append(ledger.sheet(sheet).digest)
+    assert len({*digests}) == len(digests)
+    ledger.give_up(sheet)
+    assert ledger.sheet(sheet).digest == digests[-1]
+
+
+def test_a_rest_planned_before_the_last_stroke_is_not_laid(ledger: Ledger) -> None:
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "dev")
+    run.advance(1, 0)
+    old = ledger.sheet(sheet).digest
+    run.advance(3, 2)
+    programs = [Program("1.hpgl", "front", "d" * 64, 10)]
+    head = {"title": "Rest", "machine": "m", "material": "pp-0.75"}
+    with pytest.raises(LedgerRefused, match="is being made"):
+        ledger.lay("e" * 64, programs, **head, goes_on=GoesOn(sheet, old))
+    run.end(State.INTERRUPTED)
+    with pytest.raises(LedgerRefused, match="not as it was"):
+        ledger.lay("e" * 64, programs, **head, goes_on=GoesOn(sheet, old))
+    assert ledger.successor(sheet) is None
+    assert ledger.sheet(sheet).records[0].state is State.INTERRUPTED
+
+
+def test_two_who_go_on_with_a_sheet_at_once_do_not_both_get_it(
+    ledger: Ledger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a database that lets both look first, the second to write is refused."""
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "dev")
+    run.advance(3, 2)
+    run.end(State.INTERRUPTED)
+    place = GoesOn(sheet, ledger.sheet(sheet).digest)
+    programs = [Program("1.hpgl", "front", "d" * 64, 10)]
+    head = {"title": "Rest", "machine": "m", "material": "pp-0.75"}
+    first = ledger.lay("e" * 64, programs, **head, goes_on=place)
+    monkeypatch.setattr(origins, "successor", lambda _at, _sheet: "")
+    with pytest.raises(LedgerRefused, match="gone on with by another"):
+        ledger.lay("f" * 64, programs, **head, goes_on=place)
+    monkeypatch.undo()
+    assert ledger.successor(sheet) == first

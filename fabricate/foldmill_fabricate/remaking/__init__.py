@@ -1,0 +1,22 @@
+"""A sheet that was left half made, planned to its end: only what is missing on its record.
+
+``strokes`` says which stroke of a plan the ledger's strokes are, and how each stands; ``words``
+what a person says of those in doubt; ``make`` plans the rest; ``write`` makes a job folder of it.
+"""
+
+from foldmill_fabricate.remaking.make import remake
+from foldmill_fabricate.remaking.strokes import Account, Standing, accounts, lying
+from foldmill_fabricate.remaking.words import Fate, Spoken, read_spoken
+from foldmill_fabricate.remaking.write import write_remake
+
+__all__ = [
+    "Account",
+    "Fate",
+    "Spoken",
+    "Standing",
+    "accounts",
+    "lying",
+    "read_spoken",
+    "remake",
+    "write_remake",
+]

@@ -1,0 +1,95 @@
+"""A sheet that was left half made is drawn, and its rest planned, from the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from command import Run
+from fabricate.bench import Bench, small_plan
+from fabricate.half_made import PENS, job_of, left_half_made
+
+from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.plotter.ledger import Ledger, ledger_file
+from foldmill_fabricate.sending import open_job
+
+
+@pytest.fixture
+def half(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[str, Bench]:
+    """The id of a sheet whose reverse was stopped, and the plotter it lies on."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setenv("LOCALAPPDATA", str(tmp_path / "state"))
+    job = job_of(tmp_path / "job", small_plan(PENS))
+    bench, ledger = Bench(job.plan), Ledger(ledger_file())
+    sheet = left_half_made(job, bench, ledger, 1, 12)
+    ledger.close()
+    return sheet.id, bench
+
+
+def test_its_rest_is_planned_and_made_once_somebody_has_said_what_is_cut(
+    half: tuple[str, Bench], foldmill: Run, tmp_path: Path
+) -> None:
+    name, bench = half
+    silent = foldmill("sheets", name, "--remake", "-o", "rest")
+    assert silent.code == 2
+    assert "reverse.hpgl: 1-3. Look at the sheet" in " ".join(silent.err.split())
+    assert not Path("rest").exists()
+    said = foldmill("sheets", name, "--remake", "-o", "rest", "--doubtful", "2-3", "--json")
+    assert said.code == 0, said.err
+    assert json.loads(said.out)["remakes"]["sheet"] == name
+    assert foldmill("verify", "rest").code == 0
+    rest = open_job(Path("rest"))
+    with_state = Ledger(ledger_file())
+    sent = list(send_job(rest, bench.url, bench.hands, ledger=with_state))
+    assert [one.state.value for one in sent] == ["done"]
+    with_state.close()
+    again = foldmill("send", "rest", "--port", f"sim://{PENS}", "--yes")
+    assert again.code == 2  # that simulator's ledger is another
+    assert "knows no sheet" in again.err
+    bench.leave()
+    assert {file.name for file in Path("rest").iterdir()} >= {
+        "reverse.svg",
+        "reverse.hpgl",
+        "job-sheet.pdf",
+        "pattern.fold",
+        "plan.json",
+    }
+    assert not (tmp_path / "rest" / "front.hpgl").exists()
+
+
+def test_it_is_drawn_as_cut(half: tuple[str, Bench], foldmill: Run) -> None:
+    name, bench = half
+    assert foldmill("sheets", name.lower(), "-o", "as-cut.png").code == 0
+    assert Path("as-cut.png").read_bytes().startswith(b"\x89PNG")
+    Path("job").rename("elsewhere")
+    moved = foldmill("sheets", name, "-o", "again.png")
+    assert moved.code == 2
+    assert "There is no folder" in moved.err
+    assert foldmill("sheets", name, "-o", "again.png", "--job", "elsewhere").code == 0
+    assert Path("again.png").read_bytes() == Path("as-cut.png").read_bytes()
+    bench.leave()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--remake",), "name its id"),
+        (("AAAA", "--remake"), "name it with --output"),
+        (("AAAA", "-o", "x", "--doubtful", "cut"), "give that, too"),
+        (("AAAA", "--remake", "-o", "x"), "knows no sheet"),
+        (("AAAA", "-o", "x.svg"), "drawn as a PNG"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    words: tuple[str, ...],
+    told: str,
+    foldmill: Run,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setenv("LOCALAPPDATA", str(tmp_path / "state"))
+    found = foldmill("sheets", *words)
+    assert found.code == 2
+    assert told in " ".join(found.err.split())
