@@ -59,7 +59,11 @@ class Client:
         self.url = found.rstrip("/")
         headers = {"authorization": f"Bearer {token}"} if token else {}
         self._http = httpx.Client(
-            base_url=self.url + _PREFIX, headers=headers, timeout=seconds, trust_env=False
+            base_url=self.url,
+            headers=headers,
+            timeout=seconds,
+            limits=httpx.Limits(max_keepalive_connections=0),  # a service may end in between
+            trust_env=False,
         )
 
     def __enter__(self) -> Self:
@@ -273,10 +277,10 @@ class Client:
     def _answered(self, method: str, path: str, **how: Any) -> httpx.Response:
         """Return an answer; raises the error that the service tells of, or Unreachable."""
         try:
-            answer = self._http.request(method, path, **how)
+            answer = self._http.request(method, _PREFIX + path, **how)
         except httpx.HTTPError as error:
             raise answers.unreachable(self.url, error) from None
-        if answer.is_error:
+        if not answer.is_success:
             raise answers.refusal(answer)
         return answer
 

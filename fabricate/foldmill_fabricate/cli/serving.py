@@ -71,6 +71,7 @@ def serve_command(
         for token in tokens.every:
             typer.echo(f"{token.name}  {token.scope.value}")
     if new_token is None and revoke_token is None and not list_tokens:
+        _require_packages()
         from foldmill_fabricate.jobs import plotters
         from foldmill_fabricate.service import logs
         from foldmill_fabricate.service.server import policy, serve
@@ -80,3 +81,14 @@ def serve_command(
         workshop = Workshop(places, plotters.read(more=plotter or ()), host_name)
         logs.configure()
         serve(workshop, who, port, lambda url: typer.echo(f"foldmill serves on {url}"))
+
+
+def _require_packages() -> None:
+    """Raise FoldmillError where a package of the service is missing."""
+    from importlib.util import find_spec
+
+    from foldmill import FoldmillError
+    from foldmill_fabricate.cli.working import MISSING
+
+    if any(find_spec(name) is None for name in ("fastapi", "uvicorn", "prometheus_client", "dbos")):
+        raise FoldmillError(MISSING)

@@ -17,6 +17,7 @@ from foldmill_fabricate.jobs.values import Event
 from foldmill_fabricate.service.models import PlanState, PlanStatus, PlotterStatus
 from foldmill_fabricate.service.urns import urn
 
+_EVENTS = "/api/v1/events"
 _AGAIN = 0.5
 """s before a connection that broke is made again."""
 
@@ -98,8 +99,8 @@ def _stream(http: httpx.Client, after: int, job: str) -> Iterator[tuple[str, str
     headers = {"last-event-id": str(after)} if after else {}
     silence = httpx.Timeout(60.0)  # a living service sends a comment every 15 s
     asked = {"job": job}
-    with http.stream("GET", "/events", params=asked, headers=headers, timeout=silence) as answer:
-        if answer.is_error:
+    with http.stream("GET", _EVENTS, params=asked, headers=headers, timeout=silence) as answer:
+        if not answer.is_success:
             answer.read()
             if answer.status_code == 503:
                 raise httpx.ReadError("it is full, or ending")

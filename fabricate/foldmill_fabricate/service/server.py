@@ -58,8 +58,8 @@ def serve(
     Raises PortUnavailable where the address is taken, JobRefused where another works on the jobs.
     """
     places = workshop.places
-    fence_process(None)  # no parameter that comes from elsewhere names a file of this computer
     with _alone(places), _bound(who.host, port) as listening:
+        fence_process(None)  # no parameter that comes from elsewhere names a file of this computer
         url = _url(who.host, listening.getsockname()[1])
         workshop.start()  # here, so that a refusal is told before anything is served
         app = create(workshop, who)

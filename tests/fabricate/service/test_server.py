@@ -6,7 +6,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -15,12 +14,19 @@ import pytest
 from services import serving, square
 
 from foldmill_fabricate.jobs import Places
+from foldmill_fabricate.plotter.errors import PortUnavailable
 from foldmill_fabricate.service.reach import reached
+from foldmill_fabricate.service.security import Policy
+from foldmill_fabricate.service.server import serve
+from foldmill_fabricate.service.tokens import Scope, Tokens
+from foldmill_fabricate.service.workshop import Workshop
 
 
 def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -> None:
     with serving(tmp_path) as (process, url):
         assert reached(Places(tmp_path, "")) == url
+        with pytest.raises(PortUnavailable, match=f"A service runs in {tmp_path} already .{url}."):
+            serve(Workshop(Places(tmp_path, ""), works=False), Policy(), 0)
         with httpx.Client(base_url=url) as client:
             client.post("/api/v1/patterns", json=square())
             client.post("/api/v1/designs", json={"family": "waterbomb"}, timeout=30)
@@ -41,29 +47,8 @@ def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -
     assert (posted["method"], posted["status"]) == ("POST", 201)
 
 
-def test_no_second_service_runs_on_the_same_folder(tmp_path: Path) -> None:
-    with serving(tmp_path) as (_, url):
-        words = ["serve", "--port", "0", "--state", str(tmp_path)]
-        second = subprocess.run(
-            [sys.executable, "-m", "foldmill_fabricate", *words],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert second.returncode == 2
-        assert f"A service runs in {tmp_path} already ({url})." in second.stderr
-        assert httpx.get(f"{url}/healthz").json()["ok"]
-
-
-def test_a_token_is_told_once_and_never_logged(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "foldmill_fabricate", "serve", "--state", str(tmp_path)]
-    made = subprocess.run(
-        [*command, "--new-token", "anna", "--scope", "submit"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    secret = made.stdout.strip()
+def test_a_token_is_never_logged(tmp_path: Path) -> None:
+    secret = Tokens(tmp_path).new("anna", Scope.SUBMIT)
     with serving(tmp_path, "--demand-tokens") as (_, url):
         assert httpx.get(f"{url}/api/v1").status_code == 401
         for path in ("/api/v1", f"/api/v1/patterns?token={secret}", "/api/v1/nothing"):
@@ -74,16 +59,3 @@ def test_a_token_is_told_once_and_never_logged(tmp_path: Path) -> None:
     assert '"who": "anna"' in log
     assert secret not in log
     assert "Traceback" not in log
-
-
-def test_an_address_for_others_is_refused_without_a_token(tmp_path: Path) -> None:
-    words = ["serve", "--host", "0.0.0.0", "--port", "0", "--state", str(tmp_path)]
-    refused = subprocess.run(
-        [sys.executable, "-m", "foldmill_fabricate", *words],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert refused.returncode == 2
-    assert "anybody could start a cut" in refused.stderr
-    assert "--new-token" in refused.stderr
