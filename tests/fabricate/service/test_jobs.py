@@ -113,6 +113,7 @@ def test_a_job_is_made_gate_by_gate_and_nothing_of_it_is_lost_when_the_service_i
         assert ended.state is JobState.DONE, ended.note
         until(lambda: bool(heard) and heard[-1].state is JobState.DONE)
         _judge(client, ended, heard, planned)
+        _refuse_order(client)
         figures = httpx.get(f"{url}/metrics").text
     assert 'foldmill_jobs{state="done"} 1.0' in figures
     strokes = _plan().figures.strokes
@@ -122,6 +123,17 @@ def test_a_job_is_made_gate_by_gate_and_nothing_of_it_is_lost_when_the_service_i
     told = [event.what for event in heard]
     assert told[0].startswith("submitted: 1 ×")
     assert told.count("asks: remove") == 1
+
+
+def _refuse_order(client: Client) -> None:
+    """Order a design that cannot be: its job says why."""
+    order = {"family": "rotational", "preset": "star-n6", "params": {"n": 1}}
+    asked = Submission.model_validate({"design": order, "plotter": "bench"})
+    job = client.submit(asked)
+    assert job.state is JobState.PLANNING
+    until(lambda: client.job(job.id).is_ended)
+    assert client.job(job.id).state is JobState.FAILED
+    assert "n must be at least" in client.job(job.id).note
 
 
 def _follow(url: str, job: str, heard: list[Event]) -> None:
@@ -150,21 +162,6 @@ def _judge(client: Client, job: JobRecord, heard: list[Event], planned: Path) ->
     plan = Plan.model_validate_json(client.job_file(job.id, "plan.json"))
     assert plan.passes == _plan().passes
     assert plan.machine == shelf.machine("generic-hpgl-600")
-
-
-def test_a_design_is_ordered_planned_and_cut_by_one_request(tmp_path: Path) -> None:
-    order = {"family": "rotational", "preset": "star-n6"}
-    with serving(tmp_path, "--plotter", BENCH) as (_, url), Client(url) as client:
-        job = client.submit(Submission(design=order, plotter="bench"))  # type: ignore[arg-type]
-        assert job.state is JobState.PLANNING
-        refused = client.submit(
-            Submission(design=order | {"params": {"n": 1}}, plotter="bench")  # type: ignore[arg-type]
-        )
-        ended = made(client, job)
-        assert ended.state is JobState.DONE, ended.note
-        until(lambda: client.job(refused.id).is_ended)
-        assert client.job(refused.id).state is JobState.FAILED
-        assert "must be at least" in client.job(refused.id).note
 
 
 def test_a_job_waits_where_nobody_works_and_is_moved_about_by_the_verbs(
