@@ -8,7 +8,8 @@ from types import ModuleType
 from foldmill import hookimpl
 from foldmill_fabricate import hooks, presets
 from foldmill_fabricate.formats import cf2, dxf, gcode, gpgl, hpgl, pdf, places, programs, svg
-from foldmill_fabricate.hooks import Format, Interpreter
+from foldmill_fabricate.hooks import Format, Interpreter, Reader
+from foldmill_fabricate.importing import builtin as importing
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.verify import languages
@@ -16,7 +17,7 @@ from foldmill_fabricate.verify import languages
 
 @hookimpl
 def foldmill_hookspecs() -> list[ModuleType]:
-    """Offer the hooks of formats, interpreters, machines and materials."""
+    """Offer the hooks of formats, interpreters, machines, materials and readers."""
     return [hooks]
 
 
@@ -62,3 +63,9 @@ def foldmill_interpreters() -> Iterable[Interpreter]:
         Interpreter("gp-gl", "GP-GL", languages.gpgl),
         Interpreter("gcode", "G-code of GRBL", languages.gcode),
     ]
+
+
+@hookimpl
+def foldmill_readers() -> Iterable[Reader]:
+    """Offer the formats of crease patterns that ``foldmill_fabricate.importing`` reads."""
+    return importing.readers()

@@ -1,4 +1,4 @@
-"""The hooks through which formats, interpreters, machines and materials are offered.
+"""The hooks through which formats, interpreters, machines, materials and readers are offered.
 
 They share the entry-point group ``foldmill`` with the families.
 """
@@ -16,6 +16,9 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Fit, Plan
 
 if TYPE_CHECKING:
+    from foldmill.exchange.drawing import Drawing
+    from foldmill.exchange.limits import Limits
+    from foldmill.exchange.options import Options
     from foldmill_fabricate.profiles import Style
     from foldmill_fabricate.verify.interpreter import Trace
 
@@ -23,6 +26,7 @@ FORMATS = "foldmill_formats"
 INTERPRETERS = "foldmill_interpreters"
 MACHINES = "foldmill_machines"
 MATERIALS = "foldmill_materials"
+READERS = "foldmill_readers"
 
 
 @dataclass(frozen=True)
@@ -57,11 +61,39 @@ class Interpreter:
     What is wrong in the program becomes findings of the trace; nothing is raised."""
 
 
+@dataclass(frozen=True)
+class Sized:
+    """A fold as a reader found it, and whether its file says how large it is."""
+
+    fold: Fold
+    is_sized: bool
+
+
+@dataclass(frozen=True)
+class Reader:
+    """A way to read other people's patterns: one pure function from bytes to lines.
+
+    It is called on files of strangers: it opens nothing, expands nothing, refuses what is above the
+    limits, and raises UnreadableFile with a sentence for whatever it cannot read.
+    """
+
+    slug: str
+    title: str
+    suffixes: tuple[str, ...]
+    """Of its files, as ".svg"."""
+    read: Callable[[bytes, Options, Limits], Drawing | Sized]
+    """Returns the lines as they are drawn, which then are joined to a sheet; or, from a format that
+    knows sheets, the fold."""
+    recognises: Callable[[bytes], bool] | None = None
+    """Tells by the first kilobytes of a file whether it is one of these."""
+
+
 HOOK_TYPES: dict[str, type] = {
     FORMATS: Format,
     INTERPRETERS: Interpreter,
     MACHINES: Machine,
     MATERIALS: Material,
+    READERS: Reader,
 }
 """What the values of each hook must be."""
 
@@ -87,4 +119,10 @@ def foldmill_machines() -> Iterable[Machine]:
 @hookspec
 def foldmill_materials() -> Iterable[Material]:
     """Return the materials this plugin knows. Called once per registry."""
+    return ()
+
+
+@hookspec
+def foldmill_readers() -> Iterable[Reader]:
+    """Return the formats of crease patterns this plugin reads. Called once per registry."""
     return ()

@@ -2,7 +2,8 @@
 
 ``check(fold)`` runs every rule of this package over a fold and returns their findings and figures.
 A rule never raises for what it finds. What needs the folded form is "not checked" without one.
-``flat_foldability`` is asked for by itself: a form in space need not fold flat.
+``flat_foldability``, vertex by vertex, and ``layers``, of the whole sheet, are asked for by
+themselves: a form in space need not fold flat.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from foldmill.check.assignment import assignment
 from foldmill.check.developability import developability
 from foldmill.check.flat_foldability import flat_foldability
 from foldmill.check.isometry import isometry
+from foldmill.check.layers import layers
 from foldmill.check.penetration import penetration
 from foldmill.check.planarity import planarity
 from foldmill.check.report import NOT_CHECKED, Figure, Report
@@ -29,6 +31,7 @@ __all__ = [
     "developability",
     "flat_foldability",
     "isometry",
+    "layers",
     "penetration",
     "planarity",
 ]

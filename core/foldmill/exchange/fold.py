@@ -44,15 +44,24 @@ def read(text: str, name: str = "", *, planarise: bool = False) -> Fold:
     UnreadableFile, saying which element is wrong and how.
     """
     try:
-        return _read(json_text.parse(text), planarise)
+        return read_data(json_text.parse(text), planarise=planarise)
     except (UnreadableFile, InvalidPattern) as error:
         place = f"{name}: " if name else ""
         raise UnreadableFile(f"{place}{error}") from None
 
 
-def _read(data: Frame, planarise: bool) -> Fold:
+def read_data(data: Frame, *, planarise: bool = False, frame: int | None = None) -> Fold:
+    """Return the fold in the object of a FOLD file, as ``read`` does.
+
+    frame : the number of the frame that is the pattern; by default the first that can be. Raises
+    UnreadableFile or InvalidPattern.
+    """
     every = frames.frames_of(data)
-    first, second = frames.pick(every)
+    first, second = frames.pick(every, frame)
+    return _read(data, every, first, second, planarise)
+
+
+def _read(data: Frame, every: list[Frame], first: int, second: int | None, planarise: bool) -> Fold:
     notes: list[str] = []
     frame = frames.resolved(every, first)
     frame |= {key: value for key, value in data.items() if key.startswith("file_")}

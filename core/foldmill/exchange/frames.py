@@ -13,6 +13,7 @@ from foldmill.exchange.json_text import Frame
 PATTERN, FOLDED, OTHERS = 0, 1, 2
 """The numbers frames get in memory and in our files: pattern, folded form, all others."""
 
+_COORDS = "vertices_coords"
 _FLAT_SHARE = 1e-6
 """Share of the size by which the vertices of a flat sheet may leave their plane: files are rounded,
 and a folded form leaves it by far more."""
@@ -50,19 +51,33 @@ def _parent(frame: Frame) -> int | None:
     return parent if isinstance(parent, int) and not isinstance(parent, bool) else None
 
 
-def pick(frames: list[Frame]) -> tuple[int, int | None]:
-    """Return the numbers of the pattern's frame and of its folded form's; raises UnreadableFile."""
+def pick(frames: list[Frame], wanted: int | None = None) -> tuple[int, int | None]:
+    """Return the numbers of the pattern's frame and of its folded form's; raises UnreadableFile.
+
+    wanted : the frame that is to be the pattern; by default the first that can be.
+    """
     whole = [resolved(frames, k) for k in range(len(frames))]
     drawn = [k for k, frame in enumerate(whole) if frame.get("vertices_coords")]
     if not drawn:
         raise UnreadableFile("There are no vertices (vertices_coords) in this file.")
-    flat = next((k for k in drawn if _is_pattern(whole[k])), None)
+    if wanted is not None and wanted not in drawn:
+        known = ", ".join(str(k) for k in drawn)
+        raise UnreadableFile(f"There are no vertices in a frame {wanted}; those with any: {known}.")
+    if wanted is not None and not is_flat(whole[wanted]):
+        raise UnreadableFile(f"Frame {wanted} is not flat, so it is no crease pattern.")
+    flat = next((k for k in drawn if _is_pattern(whole[k])), None) if wanted is None else wanted
     if flat is None:
         raise UnreadableFile(
             "This file holds a folded form without its flat pattern, and a sheet is cut from the "
             "pattern. Give a file with a creasePattern frame, or unfold this one."
         )
     return flat, next((k for k in drawn if _is_folded_form_of(whole[k], whole[flat])), None)
+
+
+def patterns(frames: list[Frame]) -> list[int]:
+    """Return the numbers of all frames that can be the pattern, each with vertices of its own."""
+    whole = {k: resolved(frames, k) for k, frame in enumerate(frames) if frame.get(_COORDS)}
+    return [k for k, frame in whole.items() if _is_pattern(frame)]
 
 
 def _classes(frame: Frame) -> list[Any]:

@@ -60,16 +60,21 @@ class Mended:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return one finding for each kind of change, with its count and first place."""
-        found = []
-        for kind, (words, one, many) in _SAID.items():
-            own = [change for change in self.changes if change.what == kind]
-            if own:
-                x, y = own[0].x, own[0].y
-                count = f"{len(own)} {one if len(own) == 1 else many}"
-                where = f"({x:g}, {y:g}) mm" if len(own) == 1 else f"first at ({x:g}, {y:g}) mm"
-                message = f"{words} {count}."
-                found.append(Finding(f"mended-{kind}", Severity.INFO, where, message, at=(x, y)))
-        return tuple(found)
+        return findings_of(self.changes)
+
+
+def findings_of(changes: Sequence[Change]) -> tuple[Finding, ...]:
+    """Return one finding for each kind of change, with its count and first place."""
+    found = []
+    for kind, (words, one, many) in _SAID.items():
+        own = [change for change in changes if change.what == kind]
+        if own:
+            x, y = own[0].x, own[0].y
+            count = f"{len(own)} {one if len(own) == 1 else many}"
+            where = f"({x:g}, {y:g}) mm" if len(own) == 1 else f"first at ({x:g}, {y:g}) mm"
+            message = f"{words} {count}."
+            found.append(Finding(f"mended-{kind}", Severity.INFO, where, message, at=(x, y)))
+    return tuple(found)
 
 
 def mend(frame: Frame, notes: list[str]) -> Mended:

@@ -79,14 +79,17 @@ class Planar:
 
 
 def planarise(
-    segments: ArrayLike, roles: ArrayLike | None = None, ranks: ArrayLike | None = None
+    segments: ArrayLike,
+    roles: ArrayLike | None = None,
+    ranks: ArrayLike | None = None,
+    touch: float = TOUCH_MM,
 ) -> Planar:
     """Return the planar graph of straight lines.
 
-    segments : (n, 2, 2) mm; roles, ranks : (n,) whole numbers, by default all 0. Of lines that lie
-    on each other that of the highest rank stays, with its role; of those the longest, and of equal
-    ones the first. Lines of different roles are split where they cross, and never joined. Raises
-    InvalidInput for anything else.
+    segments : (n, 2, 2) mm; roles, ranks : (n,) whole numbers, by default all 0; touch : mm within
+    which lines meet. Of lines that lie on each other that of the highest rank stays, with its role;
+    of those the longest, and of equal ones the first. Lines of different roles are split where they
+    cross, and never joined. Raises InvalidInput for anything else.
     """
     given = np.asarray(segments, float)
     if given.ndim != 3 or given.shape[1:] != (2, 2) or not np.isfinite(given).all():
@@ -94,8 +97,8 @@ def planarise(
     none = np.zeros(len(given), np.intp)
     kinds = none if roles is None else np.asarray(roles, np.intp)
     order = none if ranks is None else np.asarray(ranks, np.intp)
-    points, ends = weld(given.reshape(-1, 2), TOUCH_MM)
-    return _graph(points, ends.reshape(-1, 2), kinds, order)
+    points, ends = weld(given.reshape(-1, 2), touch)
+    return _graph(points, ends.reshape(-1, 2), kinds, order, touch)
 
 
 def planarise_graph(
@@ -121,20 +124,22 @@ def planarise_pattern(pattern: CreasePattern) -> Planar:
     return planarise_graph(pattern.vertices, pattern.edges, pattern.assignments)
 
 
-def _graph(points: Floats, ends: Indices, kinds: Indices, ranks: Indices) -> Planar:
+def _graph(
+    points: Floats, ends: Indices, kinds: Indices, ranks: Indices, touch: float = TOUCH_MM
+) -> Planar:
     lengths = np.hypot(*(points[ends[:, 1]] - points[ends[:, 0]]).T)
     whole = ends[:, 0] != ends[:, 1]
     changes = [Change("crumb", *_xy(points[ends[k, 0]]), int(k)) for k in np.flatnonzero(~whole)]
     edges, own, given = ends[whole], np.flatnonzero(whole), len(points)
     met: set[int] = set()
     for _ in range(_ROUNDS):
-        points, edges, own, where = split(points, edges, own, TOUCH_MM)
+        points, edges, own, where = split(points, edges, own, touch)
         if not len(where):
             break
         met |= set(where.tolist())
     edges, own, lost = _without_overlaps(edges, own, lengths, ranks)
     changes += [Change("overlap", *_xy(points[e].mean(axis=0)), k, on) for e, k, on in lost]
-    edges, own, gone = merged_runs(points, edges, own, kinds, lengths, TOUCH_MM)
+    edges, own, gone = merged_runs(points, edges, own, kinds, lengths, touch)
     crossings = sorted(met & set(np.unique(edges).tolist()))
     changes += [Change("crossing", *_xy(points[v]), -1) for v in crossings]
     doubled = {int(v) for _, k, _ in lost for v in ends[k]}

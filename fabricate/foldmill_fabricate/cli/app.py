@@ -16,6 +16,7 @@ from foldmill_fabricate.cli import (
     catalogue,
     designing,
     exploring,
+    importing,
     jobs,
     leading,
     making,
@@ -38,6 +39,7 @@ app = typer.Typer(
 )
 catalogue.add_to(app)
 designing.add_to(app)
+importing.add_to(app)
 moving.add_to(app)
 exploring.add_to(app)
 searching.add_to(app)

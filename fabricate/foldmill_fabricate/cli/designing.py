@@ -8,9 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
-from foldmill import Design, Fold, FoldmillError, UnreadableFile
+from foldmill import Design, Fold, FoldmillError
 from foldmill.exchange.marking import marked
 from foldmill.finding import has_errors
+from foldmill_fabricate.cli.importing import PatternFile, load, with_file_options
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -21,12 +22,6 @@ from foldmill_fabricate.cli.output import (
     say,
     table,
 )
-
-FoldFile = Annotated[Path, typer.Argument(help="A crease pattern, FILE.fold.")]
-Planarise = Annotated[
-    bool,
-    typer.Option("--planarise", help="Mend lines that cross or lie upon each other, and say how."),
-]
 
 
 def add_to(app: typer.Typer) -> None:
@@ -81,8 +76,8 @@ def design(
     found = check_fold(fold).findings
     if output is not None and (force or not has_errors(found)):
         save(marked(fold, found), output)
-    data = {**_summary(fold), "findings": finding_data(found)}
-    say(as_json, data, "\n".join([figure_lines(_summary(fold)), finding_lines(found)]).rstrip())
+    data = {**summary(fold), "findings": finding_data(found)}
+    say(as_json, data, "\n".join([figure_lines(summary(fold)), finding_lines(found)]).rstrip())
     if output is not None and has_errors(found) and not force:
         typer.echo("It does not fold, so nothing is written; --force writes it, marked.", err=True)
     exit_code(found)
@@ -123,10 +118,11 @@ def _save_columns(title: str, figures: Mapping[str, object], file: Path) -> None
     write_whole(file, made)
 
 
+@with_file_options
 def show(
-    file: FoldFile,
+    file: PatternFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="FILE.png")],
-    planarise: Planarise = False,
+    options: Any = None,
 ) -> None:
     """Draw a pattern and its folded form side by side."""
     from foldmill_fabricate.files import write_whole
@@ -134,42 +130,30 @@ def show(
 
     if output.suffix != ".png":
         raise FoldmillError(f"{output}: a picture is written as .png.")
-    write_whole(output, show_picture(load(file, planarise)))
+    write_whole(output, show_picture(load(file, options)))
     typer.echo(f"{output}")
 
 
-def check(file: FoldFile, planarise: Planarise = False, as_json: AsJson = False) -> None:
+@with_file_options
+def check(
+    file: PatternFile,
+    flat: Annotated[
+        bool, typer.Option("--flat", help="Ask as well whether it folds flat, layers and all.")
+    ] = False,
+    options: Any = None,
+    as_json: AsJson = False,
+) -> None:
     """Check that a pattern folds: developable, planar, isometric, free of penetration."""
+    from foldmill.check import Report, flat_foldability, layers
     from foldmill.check import check as check_fold
 
-    report = check_fold(load(file, planarise))
+    fold = load(file, options)
+    rules = [check_fold, flat_foldability, layers] if flat else [check_fold]
+    report = Report.joined(rule(fold) for rule in rules)
     text = [figure_lines(report.figures), finding_lines(report.findings) or "no findings"]
     data = {"figures": dict(report.figures), "findings": finding_data(report.findings)}
     say(as_json, data, "\n".join(text))
     exit_code(report.findings)
-
-
-def load(file: Path, planarise: bool = False) -> Fold:
-    """Read a .fold file; raises UnreadableFile, which names --planarise where that mends it."""
-    from foldmill.exchange import fold as fold_file
-
-    text = file.read_bytes().decode("utf-8", errors="replace")
-    try:
-        return fold_file.read(text, str(file), planarise=planarise)
-    except UnreadableFile as error:
-        if planarise or not _is_mended(text):
-            raise
-        raise UnreadableFile(f"{error} Or let --planarise mend its lines.") from None
-
-
-def _is_mended(text: str) -> bool:
-    """Tell whether a file that cannot be read can be once its lines are mended."""
-    from foldmill.exchange import fold as fold_file
-
-    try:
-        return bool(fold_file.read(text, planarise=True).findings)
-    except UnreadableFile:
-        return False
 
 
 def save(fold: Fold, file: Path) -> None:
@@ -205,7 +189,8 @@ def _describe(design: Design[Any], preset: str | None) -> str:
     return head + table([("PARAMETER", "VALUE", "UNIT", "RANGE", ""), *lines])
 
 
-def _summary(fold: Fold) -> dict[str, object]:
+def summary(fold: Fold) -> dict[str, object]:
+    """Return figures of a fold that a person asks for first."""
     import numpy as np
 
     from foldmill import Assignment

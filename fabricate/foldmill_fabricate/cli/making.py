@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.designing import FoldFile, Planarise, load
+from foldmill_fabricate.cli.importing import PatternFile, imported, with_file_options
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -106,8 +106,9 @@ def add_to(app: typer.Typer) -> None:
     app.command()(verify)
 
 
+@with_file_options
 def plan(
-    file: FoldFile,
+    file: PatternFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="The job folder to write.")],
     material: MaterialSlug = "pp-0.75",
     machine: MachineSlug = "generic-hpgl-600",
@@ -140,7 +141,7 @@ def plan(
         typer.Option(help="FRONT,REVERSE: °C of the sheet at both passes, as 21,24."),
     ] = None,
     to: Formats = None,
-    planarise: Planarise = False,
+    options: Any = None,
     profile: Annotated[
         str, typer.Option(help="Names and colours of the drawings' layers: a name or a TOML file.")
     ] = "foldmill",
@@ -151,12 +152,15 @@ def plan(
 ) -> None:
     """Plan both faces of the sheet and write programs, drawings and job sheet into a folder."""
     from foldmill_fabricate import folder, profiles
+    from foldmill_fabricate.importing.reading import require_answers
     from foldmill_fabricate.plan import make
     from foldmill_fabricate.profiles import Style
 
     chosen_material, chosen_machine = presets(material, machine)
     formats = formats_for(to, chosen_machine)
-    fold = load(file, planarise)
+    found = imported(file, options)
+    require_answers(found, str(file))
+    fold = found.fold
     look = Style(profiles.find(profile), "R12" if dxf is DxfChoice.R12 else "R2000")
     made = make(
         fold,

@@ -11,7 +11,7 @@ from foldmill import Fold, FoldmillError, UnknownName
 from foldmill.exchange.marking import marked
 from foldmill.finding import Severity
 from foldmill.motion import Motion
-from foldmill_fabricate.cli.designing import load
+from foldmill_fabricate.cli.importing import load
 from foldmill_fabricate.cli.output import AsJson, finding_lines, say
 
 MOST_STEPS = 1000

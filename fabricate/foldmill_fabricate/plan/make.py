@@ -171,7 +171,7 @@ def _block(
 def _folds(fold: Fold) -> tuple[Finding, ...]:
     """Return why the fold does not fold, if it does not, and how its file was mended."""
     errors = tuple(f for f in check(fold).findings if f.severity is Severity.ERROR)
-    return errors + tuple(f for f in fold.findings if f.code.startswith("mended-"))
+    return errors + tuple(f for f in fold.findings if f.code.startswith(("mended-", "import-")))
 
 
 def _flip(kind: FlipKind, sheet: Sheet) -> Flip:

@@ -1,0 +1,164 @@
+"""Read an SVG drawing: every stroked shape, with its transforms, style, opacity and layers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from foldmill.errors import UnreadableFile
+from foldmill.exchange import colours, safe_xml
+from foldmill.exchange.drawing import Drawing, Look, drawing_of
+from foldmill.exchange.limits import DEFAULT, Limits
+from foldmill.exchange.safe_xml import Element
+from foldmill.exchange.svg import lengths, transforms
+from foldmill.exchange.svg.shapes import SHAPES, traced
+from foldmill.exchange.svg.style import Sheet, classes, share, sheet_of, style_of
+from foldmill.exchange.svg.transforms import STILL, Affine
+
+_GROUPS = {"svg", "g", "a", "switch"}
+_UNDRAWN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker", "style", "metadata"}
+_PICTURES = {"text": "texts", "image": "images", "foreignObject": "foreign objects"}
+_PAINTED = {"none", "transparent", ""}
+_LABEL = "inkscape:label"
+
+
+@dataclass(frozen=True)
+class _Place:
+    """What the groups about an element say of it."""
+
+    affine: Affine = STILL
+    style: dict[str, str] = field(default_factory=dict)
+    layers: tuple[str, ...] = ()
+
+
+def read(content: bytes, limits: Limits = DEFAULT) -> Drawing:
+    """Return the lines of an SVG file; raises UnreadableFile for what is none, or broken.
+
+    Curves become chords; texts, images and what is hidden are left out. Both are told.
+    """
+    root = safe_xml.parse(content, limits)
+    if root.name != "svg":
+        raise UnreadableFile(f"An SVG file begins with <svg>, this one with <{root.name}>.")
+    across, down, millimetres = lengths.page(root.attributes)
+    reader = _Reader(sheet_of(root), limits)
+    reader.group(root, _Place((across, 0.0, 0.0, down, 0.0, 0.0)))
+    return drawing_of(
+        np.concatenate(reader.segments).reshape(-1, 4).tolist() if reader.segments else [],
+        reader.looks,
+        down=True,
+        millimetres=millimetres,
+        notes=reader.notes(),
+        title=_title(root),
+        limits=limits,
+    )
+
+
+def _title(root: Element) -> str:
+    said = [child.text.strip() for child in root.children if child.name == "title"]
+    return said[0] if said else ""
+
+
+class _Reader:
+    def __init__(self, sheet: Sheet, limits: Limits) -> None:
+        self.sheet = sheet
+        self.limits = limits
+        self.segments: list[np.ndarray[tuple[int, ...], np.dtype[np.float64]]] = []
+        self.looks: list[Look] = []
+        self.bent = 0
+        self.left: Counter[str] = Counter()
+
+    def group(self, element: Element, outer: _Place) -> None:
+        place = self._placed(element, outer)
+        if place is None:
+            return
+        for child in element.children:
+            if child.name in _GROUPS:
+                self.group(child, self._inner(child, place))
+            elif child.name in SHAPES:
+                self._shape(child, place)
+            elif child.name == "use":
+                raise UnreadableFile(
+                    "This drawing repeats parts of itself by <use>, which is not followed. Unlink "
+                    "its clones (Inkscape: Edit, Clone, Unlink), and save it again."
+                )
+            elif child.name in _PICTURES:
+                self.left[_PICTURES[child.name]] += 1
+
+    def _inner(self, child: Element, place: _Place) -> _Place:
+        """Return the place within a drawing in a drawing, which has a page of its own."""
+        if child.name != "svg":
+            return place
+        said = child.attributes
+        across, down, _ = lengths.page(said)
+        corner = lengths.numbers(said.get("viewBox", ""), "viewBox")
+        left, top = (corner[0], corner[1]) if len(corner) == 4 else (0.0, 0.0)
+        x, y = lengths.px(said, "x"), lengths.px(said, "y")
+        own = (across, 0.0, 0.0, down, x - across * left, y - down * top)
+        return replace(place, affine=transforms.after(place.affine, own))
+
+    def _placed(self, element: Element, outer: _Place) -> _Place | None:
+        """Return what holds within an element; None where it is not drawn."""
+        style = style_of(element, self.sheet, outer.style)
+        if style.get("display") == "none":
+            self.left["hidden parts"] += 1
+            return None
+        said = element.attributes
+        affine = outer.affine
+        if said.get("transform", "none").strip() not in {"", "none"}:
+            affine = transforms.after(affine, transforms.parse(said["transform"]))
+        names = [said.get("id", ""), *classes(element), said.get(_LABEL, "")]
+        return _Place(affine, style, (*outer.layers, *(name for name in names if name)))
+
+    def _shape(self, element: Element, outer: _Place) -> None:
+        place = self._placed(element, outer)
+        if place is None:
+            return
+        if place.style.get("visibility") in {"hidden", "collapse"}:
+            self.left["hidden parts"] += 1
+            return
+        look = _look(place)
+        if look is None:
+            self.left["shapes without a line"] += 1
+            return
+        found = traced(element, self.limits.lines)
+        self.bent += found.bent
+        for line in found.lines:
+            moved = transforms.applied(place.affine, line)
+            self.segments.append(np.stack([moved[:-1], moved[1:]], axis=1))
+            self.looks += [look] * (len(moved) - 1)
+        self.limits.check_lines(len(self.looks))
+
+    def notes(self) -> list[str]:
+        """Return sentences on what was left out or drawn otherwise."""
+        left = ", ".join(f"{count} {what}" for what, count in sorted(self.left.items()))
+        said = [
+            f"Left out, as they are no lines: {left}." if left else "",
+            f"{self.bent} curves became chords that stray from them by no more than a "
+            f"two-thousandth of their length."
+            if self.bent
+            else "",
+            f"{self.sheet.unknown} rules of the style sheet are not understood."
+            if self.sheet.unknown
+            else "",
+        ]
+        return [sentence for sentence in said if sentence]
+
+
+def _look(place: _Place) -> Look | None:
+    """Return what a shape is drawn in; None where it has no line.
+
+    The fold angle goes by the shape's own opacity and that of its stroke, as in Origami Simulator;
+    the opacity of groups about it is none of it.
+    """
+    style = place.style
+    paint = style.get("stroke", "none").strip()
+    if paint.lower() == "currentcolor":
+        paint = style.get("color", "black")
+    if paint.lower() in _PAINTED:
+        return None
+    found = colours.parse(paint)
+    colour, alpha = found or (None, 1.0)
+    opacity = share(style.get("opacity", "1")) * share(style.get("stroke-opacity", "1")) * alpha
+    return Look("", place.layers, colour, round(opacity, 9))

@@ -1,0 +1,112 @@
+"""What lines are: as a person says, else by layer, else by colour; where none says, it is asked."""
+
+from __future__ import annotations
+
+import pytest
+
+from foldmill import UnreadableFile
+from foldmill.exchange import colours
+from foldmill.exchange.drawing import Look
+from foldmill.exchange.naming import layer_letter, named
+from foldmill.exchange.options import Options
+
+RED, BLUE, BLACK, ORANGE = (255, 0, 0), (0, 0, 255), (0, 0, 0), (255, 165, 0)
+
+
+@pytest.mark.parametrize(
+    ("word", "letter"),
+    [
+        ("red", "M"),
+        ("crimson", "M"),
+        ("#ed1c24", "M"),  # red of printing inks
+        ("blue", "V"),
+        ("royalblue", "V"),
+        ("#2e3192", "V"),
+        ("black", "B"),
+        ("#231f20", "B"),
+        ("lime", "C"),
+        ("limegreen", "C"),
+        ("yellow", "F"),
+        ("gold", "F"),
+        ("gray", "F"),
+        ("lightgray", "F"),
+        ("magenta", "U"),
+        ("orchid", "U"),
+        ("white", ""),
+        ("orange", None),
+        ("cyan", None),
+        ("brown", "M"),
+        ("tan", None),
+    ],
+)
+def test_colours_mean_what_crease_pattern_programs_mean(word: str, letter: str | None) -> None:
+    found = colours.parse(word)
+    assert found is not None
+    assert colours.letter_of(found[0]) == letter
+
+
+@pytest.mark.parametrize(
+    ("layer", "letter"),
+    [
+        ("Mountain", "M"),
+        ("MountainLine", "M"),
+        ("MOUNTAIN", "M"),
+        ("ORIGAMI_VALLEY", "V"),
+        ("valley-folds", "V"),
+        ("CutLine", "C"),
+        ("Boundary", "B"),
+        ("edges", "B"),
+        ("AuxiliaryLine", "F"),
+        ("M", "M"),
+        ("v", "V"),
+        ("Layer 1", None),
+        ("g1234", None),
+        ("mountains and valleys", None),
+        ("countryside", None),
+        ("Notes", "skip"),
+    ],
+)
+def test_layers_mean_what_their_words_say(layer: str, letter: str | None) -> None:
+    assert layer_letter([layer]) == letter
+
+
+def test_the_innermost_layer_that_says_anything_is_believed() -> None:
+    assert layer_letter(["Mountain", "Valley", "g12"]) == "V"
+
+
+def test_a_layer_is_believed_before_a_colour_and_the_doubt_is_told() -> None:
+    blue_mountain = Look("", ("Mountain",), BLUE)
+    found = named([blue_mountain] * 3, Options())
+    assert found.letters == ("M",) * 3
+    (finding,) = found.findings
+    assert finding.code == "import-layer-or-colour"
+    assert "--by colour" in finding.remedy
+    assert named([blue_mountain], Options(by="colour")).letters == ("V",)
+
+
+def test_what_a_person_says_goes_before_both() -> None:
+    look = Look("", ("Mountain", "inner"), BLUE)
+    assert named([look], Options(named={"blue": "U"})).letters == ("U",)
+    assert named([look], Options(named={"#0000ff": "U", "INNER": "F"})).letters == ("F",)
+
+
+def test_unknown_lines_are_asked_for_by_name_with_their_count() -> None:
+    looks = [Look("", (), RED), *[Look("", (), ORANGE)] * 3, Look("", ("odd",), None)]
+    with pytest.raises(
+        UnreadableFile, match=r"3 in #ffa500, 1 in odd\. Say it with --as '#ffa500=M'"
+    ):
+        named(looks, Options())
+    said = Options(named={"orange": "V", "other": "skip"})
+    found = named(looks, said)
+    assert found.letters == ("M", "V", "V", "V", "")
+    assert found.findings[0].message.startswith("1 lines were left out")
+
+
+def test_by_layer_a_colour_says_nothing() -> None:
+    with pytest.raises(UnreadableFile, match="--as"):
+        named([Look("", ("Layer 1",), RED)], Options(by="layer"))
+
+
+def test_a_drawing_of_which_nothing_is_left_is_refused() -> None:
+    with pytest.raises(UnreadableFile, match="All lines of this drawing are left out"):
+        named([Look("", (), BLACK)], Options(named={"black": "skip"}))
