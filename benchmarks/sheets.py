@@ -2,11 +2,13 @@
 
     python benchmarks/sheets.py [LARGEST] [FORMATS]
 
-LARGEST (default 3200) is the largest number of bases; 50000 takes an hour, most of it in the
-simulator. FORMATS (default svg,dxf,hpgl) are those that plan writes. Every stage is a command of
+LARGEST (default 3200) is the largest number of bases; 50000 takes a quarter of an hour of the
+processor. FORMATS (default svg,dxf,hpgl) are those that plan writes. Every stage is a command of
 its own, as a user types it: catenoids of 800, 3,200, 12,800 and 49,928 bases of one size of cell
 are designed, checked, planned in card for a cutting table of 3200 × 1800 mm (the machine of
-examples/machines), verified, and sent to that table's simulator.
+examples/machines), verified, and sent to that table's simulator. The last is done by
+benchmarks/sent.py, which verifies and sends as the command does, and then lays every stroke that
+the machine drew beside the plan's.
 
 s         processor seconds of the command
 exponent  b in seconds ~ creases^b, from the size before
@@ -30,6 +32,7 @@ from pathlib import Path
 SIZES = ((40, 20), (80, 40), (160, 80), (316, 158))
 CELL = 3000 / 316
 """mm of sheet to a base, along u."""
+SENT = Path(__file__).parent / "sent.py"
 MACHINE = "table-3200"
 SHIPPED = Path(__file__).parent.parent / "examples" / "machines" / f"{MACHINE}.toml"
 
@@ -43,9 +46,9 @@ class Spent:
 
 
 def run(arguments: list[str], home: Path) -> Spent:
-    """Run one command of foldmill's; ends the benchmark where it fails."""
+    """Run one command of Python's; ends the benchmark where it fails."""
     environment = {**os.environ, "XDG_CONFIG_HOME": str(home)}
-    command = [sys.executable, "-m", "foldmill_fabricate", *arguments]
+    command = [sys.executable, *arguments]
     child = subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     )
@@ -64,13 +67,14 @@ def stages(n_u: int, n_v: int, folder: Path, formats: str) -> dict[str, list[str
     fold, job = str(folder / "sheet.fold"), str(folder / "job")
     counts = ["--n_u", str(n_u), "--n_v", str(n_v), "--size", f"{length:.0f}"]
     made = ["--material", "card-250", "--machine", MACHINE, "--blank", blank, "--to", formats]
-    return {
-        "design": ["design", "waterbomb", "--preset", "catenoid", *counts, "-o", fold],
-        "check": ["check", fold],
-        "plan": ["plan", fold, *made, "-o", job],
-        "verify": ["verify", job],
-        "send": ["send", job, "--port", f"sim://{MACHINE}", "--yes"],
+    verbs = {
+        "design": ["waterbomb", "--preset", "catenoid", *counts, "-o", fold],
+        "check": [fold],
+        "plan": [fold, *made, "-o", job],
+        "verify": [job],
     }
+    foldmill = {verb: ["-m", "foldmill_fabricate", verb, *rest] for verb, rest in verbs.items()}
+    return {**foldmill, "send": [str(SENT), job, f"sim://{MACHINE}"]}
 
 
 def figures(folder: Path) -> tuple[int, str]:

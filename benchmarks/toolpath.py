@@ -214,7 +214,7 @@ def run_random() -> None:
     """Print separate random lines."""
     for count in (500, 1000):
         lines = random_lines(count)
-        bound = travel_bound(list(lines), None, rounds=200, dense=4 * count)
+        bound = travel_bound(list(lines), None, rounds=1000)
         beside_peer(f"{count} random lines", lines, bound, peer_python())
 
 

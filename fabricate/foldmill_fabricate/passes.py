@@ -21,6 +21,7 @@ from pydantic import (
     SerializerFunctionWrapHandler,
     model_serializer,
 )
+from pydantic.dataclasses import dataclass
 
 from foldmill.finding import Finding
 from foldmill_fabricate.ladders import Coupon
@@ -84,11 +85,13 @@ def _without(written: dict[str, Any], **usual: object) -> dict[str, Any]:
     }
 
 
-class Stroke(_Value):
+@dataclass(frozen=True, slots=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
+class Stroke:
     """One motion with the tool down, once along it. A closed stroke ends where it begins.
 
     With r repeats an open stroke is followed there and back, r times in all; a closed one is gone
-    round r times and then on by the operation's overcut. The tool is not lifted in between.
+    round r times and then on by the operation's overcut. The tool is not lifted in between. Large
+    sheets have hundreds of thousands: with slots each takes half the memory.
     """
 
     points: tuple[XY, ...] = Field(min_length=2)
@@ -290,6 +293,11 @@ class Figures(_Value):
     """mm that no order of these strokes can go below; 0 where nobody looked for it"""
     seconds: float
     """by the machine's own speeds and accelerations"""
+
+    @property
+    def travel_gap(self) -> float | None:
+        """mm of travel above that bound; None where nobody looked for it."""
+        return round(self.travel - self.travel_bound, 3) if self.travel_bound else None
 
 
 class Plan(_Value):

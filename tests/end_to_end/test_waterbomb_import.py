@@ -21,6 +21,7 @@ def test_the_waterbomb_is_planned_in_one_command_and_verified(
     told = foldmill("plan", str(SAMPLE), *words, "--to", "hpgl", "-o", str(job))
     assert told.code == 0, told.err
     plan = Plan.model_validate_json((job / "plan.json").read_bytes())
+    assert "import-side" in {finding.code for finding in plan.findings}
     scored = {
         work.face: sum(
             len(operation.strokes)

@@ -32,7 +32,8 @@ SHEET = jobsheet.write(PLAN, STOOL)
 def streams(pdf: bytes) -> list[str]:
     """Return the page contents of a PDF, in order."""
     raw = re.findall(rb"/FlateDecode.*?stream\r?\n(.*?)\r?\nendstream", pdf, re.DOTALL)
-    texts = [zlib.decompress(each).decode("latin-1") for each in raw]
+    # A checksum may end with a byte that looks like the line end after it.
+    texts = [zlib.decompressobj().decompress(each).decode("latin-1") for each in raw]
     return [text for text in texts if " Tf" in text]
 
 

@@ -132,6 +132,12 @@ def npy(shape: tuple[int, ...], kind: str) -> bytes:
     return file.getvalue() + b"1234"
 
 
+def saved_array(values: np.ndarray) -> bytes:
+    file = BytesIO()
+    np.save(file, values)
+    return file.getvalue()
+
+
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
@@ -149,6 +155,12 @@ def npy(shape: tuple[int, ...], kind: str) -> bytes:
         ("a.csv", b"1,2,3\n" * 9, r"holds 9 × 3 heights"),
         ("a.csv", b"1,2,3,4\n" * 3 + b"1,2,nan,4\n", "row 4, column 3 is no finite number"),
         ("a.txt", b"1 2 3 inf\n" * 4, r"row 1, column 4 is no finite .*\(and 3 more\)"),
+        (
+            "a.npy",
+            saved_array(np.zeros((5, 6, 3))),
+            r"3 dimensions \(5 × 6 × 3\); a field .* one layer",
+        ),
+        ("a.npy", saved_array(np.zeros(25)), r"1 dimensions \(25\); a field of heights has 2"),
         ("a.svg", b"<svg/>", r"read from \.png .*, not \.svg"),
         ("a", b"", "a file without a suffix"),
     ],
@@ -422,3 +434,35 @@ def test_a_broken_mesh_is_refused_and_nothing_else_is_raised(
     (tmp_path / name).write_bytes(content)
     with pytest.raises(FoldmillError, match=r"a\.(stl|obj|ply|off)|too coarse"):
         DESIGN.run(params("mesh", tmp_path / name))
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("v 1 2 3", r'it holds 1 corners .* and 0 facets \(lines "f a b c"\)'),
+        ("", "it holds 0 corners"),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9",
+            r"line 4 \(f 1 2 9\) names corner 9, and there are 3",
+        ),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4", "line 4 .* names corner -4, and there are 3"),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 x 3",
+            r"line 4 \(f 1 x 3\) holds something that is no num",
+        ),
+        ("v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3", r"line 2 \(v 1 0\) has 2 coordinates, not 3"),
+        ("v 0 0 0\nv 1 0 zz\nv 0 1 0\nf 1 2 3", r"line 2 \(v 1 0 zz\) holds something"),
+        (
+            "# a\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+            r"line 2 \(v nan 0 0\) is at no finite place",
+        ),
+    ],
+)
+def test_what_is_wrong_with_an_obj_file_is_told_with_its_line_and_what_to_do(
+    lines: str, said: str, tmp_path: Path
+) -> None:
+    (tmp_path / "a.obj").write_text(lines)
+    with pytest.raises(
+        ImpossibleGeometry, match=rf"a\.obj is no \.obj .*{said}.* Save the mesh again"
+    ):
+        DESIGN.run(params("mesh", tmp_path / "a.obj"))

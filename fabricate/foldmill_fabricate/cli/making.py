@@ -24,7 +24,7 @@ from foldmill_fabricate.cli.output import (
 if TYPE_CHECKING:
     from foldmill_fabricate.machines import Machine
     from foldmill_fabricate.materials import Material
-    from foldmill_fabricate.passes import Plan
+    from foldmill_fabricate.passes import Figures, Plan
 
 
 class FlipChoice(StrEnum):
@@ -183,6 +183,7 @@ def plan(
         "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
     )
     data = {**written.model_dump(mode="json"), "quantity": written.quantity}
+    data["figures"]["travel_gap"] = written.figures.travel_gap
     say(as_json, data, describe(written) + programs)
     exit_code(written.findings)
 
@@ -280,13 +281,21 @@ def describe(plan: Plan) -> str:
             gates = ", ".join(setup.gates) or "-"
             rows.append((f"{setup.number} {setup.name}", work.face, gates, str(strokes), repeats))
     figures = plan.figures
-    bound = f", no order goes below {figures.travel_bound / 1000:.2f} m"
     facts = {
         "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
         **({"copies": str(plan.quantity)} if plan.quantity > 1 else {}),
         "turned by": f"{plan.placement.angle:g}°",
         "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
-        "travel": f"{figures.travel / 1000:.2f} m{bound if figures.travel_bound else ''}",
+        "travel": f"{figures.travel / 1000:.2f} m{gap(figures)}",
         "time": f"{figures.seconds / 60:.1f} min without the operator's",
     }
     return "\n".join([table(rows), figure_lines(facts), finding_lines(plan.findings)])
+
+
+def gap(figures: Figures) -> str:
+    """Say how far travel is above what is proved that no order goes below; empty where unknown."""
+    above, bound = figures.travel_gap, figures.travel_bound
+    if above is None:
+        return ""
+    share = f" ({100 * above / bound:.1f} %)" if above < bound else ""
+    return f", {above / 1000:.2f} m{share} above {bound / 1000:.2f} m, which no order goes below"

@@ -291,7 +291,8 @@ class JobStore:
         with self._engine.begin() as at:
             row = rows.job_row(at, name, lock=True)
             if row.state == from_.value:
-                at.execute(update(JOBS).where(JOBS.c.id == row.id).values(**(values or {})))
+                if values:
+                    at.execute(update(JOBS).where(JOBS.c.id == row.id).values(**values))
                 self._set(at, row, to, what, rows.WORKER, note)
 
     def _set(

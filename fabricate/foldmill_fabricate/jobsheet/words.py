@@ -27,9 +27,24 @@ def summary(plan: Plan) -> str:
     copies = f"{plan.quantity} copies   " if plan.quantity > 1 else ""
     return (
         f"{copies}Pattern {plan.pattern_sha256[:12]}   Sheet {size.width:g} × {size.height:g} mm "
-        f"on a mat of {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   "
+        f"{_lies(plan)} {size.carrier_width:g} × {size.carrier_height:g} mm, {_mass(plan):.0f} g   "
         f"About {max(1, round(plan.figures.seconds / 60))} min of motion"
     )
+
+
+def travel(plan: Plan) -> str:
+    """Return how far the tool goes while up, and how much of that any order would; or nothing."""
+    figures = plan.figures
+    if figures.travel_gap is None:
+        return ""
+    return (
+        f"Of the way, {figures.drawn / 1000:.1f} m are drawn and {figures.travel / 1000:.2f} m "
+        f"gone with the tool up; {figures.travel_bound / 1000:.2f} m are so in any order."
+    )
+
+
+def _lies(plan: Plan) -> str:
+    return "on a bed of" if plan.machine.bed.pull else "on a mat of"
 
 
 def _mass(plan: Plan) -> float:
@@ -96,7 +111,8 @@ def _tooling(plan: Plan, setup: SetUp) -> str:
 
 
 def _corner(plan: Plan) -> str:
-    return f"x {plan.sheet.dx:g}, y {plan.sheet.dy:g} mm of the mat"
+    where = "bed" if plan.machine.bed.pull else "mat"
+    return f"x {plan.sheet.dx:g}, y {plan.sheet.dy:g} mm of the {where}"
 
 
 def hole_rows(plan: Plan) -> list[Row]:
@@ -150,6 +166,11 @@ def warnings(plan: Plan, pattern: CreasePattern) -> list[str]:
             f"The programs lead the knife's holder, not its tip: they are for a blade whose tip "
             f"trails {offset:g} mm behind the holder's axis. Measure yours, set the machine's own "
             f"offset to 0, and expect a small angle cut in the waste before each set-up."
+        )
+    if plan.machine.bed.pull:
+        said.append(
+            "Feed the sheet without a mat: the tool pulls it and never "
+            "pushes it, so it lifts and goes back before each repeat, and rings are cut in halves."
         )
     closed = sum(abs(angle) >= 180 - CLOSED_DEG for angle in pattern.fold_angles.tolist())
     if closed:

@@ -69,6 +69,8 @@ def _machine_page(plan: Plan, creases: CreasePattern) -> Paper:
         _add_budget(page, plan)
     page.y -= 2
     page.line(words.temperature(plan), 8)
+    if plan.figures.travel_gap is not None:
+        page.line(words.travel(plan), 8)
     page.check_bar(12)
     return page
 

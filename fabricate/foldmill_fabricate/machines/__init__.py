@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.presets import INFORMATION, Preset, Sourced
@@ -39,6 +39,14 @@ class Bed(Preset):
     """Size of the cutting mat that carries the blank; its lower left corner is the origin."""
     pinch_rollers: tuple[Mm, ...] = Field((), json_schema_extra=INFORMATION)
     """Where rollers press on the sheet, from the left; empty where the operator sets them."""
+
+    pull: Literal["up", "down"] | None = None
+    """Which way alone the tool may go along the feed, seen on the carrier with y up, because it can
+    pull the sheet but not push it: a roll-feed machine without a mat. None where either will do."""
+
+    @model_serializer(mode="wrap")
+    def _written(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {k: v for k, v in write(self).items() if k != "pull" or v is not None}
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
@@ -324,3 +332,13 @@ class Machine(Sourced):
     verified: bool
     """Whether it was tried on hardware."""
     notes: str = Field("", json_schema_extra=INFORMATION)
+
+    @model_validator(mode="after")
+    def _holds_what_it_pulls(self) -> Self:
+        """Refuse a holder that is led round corners where the sheet may only be pulled."""
+        if self.bed.pull and self.tools.host_offset:
+            raise ValueError(
+                "bed.pull is for machines that make up for the blade's offset themselves: a holder "
+                "that is led round corners pushes the sheet"
+            )
+        return self

@@ -11,7 +11,7 @@ from foldmill_fabricate.sheet import flipped, on_carrier
 from foldmill_fabricate.toolpath import motion, order
 from foldmill_fabricate.toolpath.bounds import travel_bound
 from foldmill_fabricate.toolpath.line import waiting
-from foldmill_fabricate.toolpath.ways import ways
+from foldmill_fabricate.toolpath.ways import stroke_ways, ways
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ def measure(
             lifts += len(paths)
             drawn += sum(float(np.hypot(*(path[1:] - path[:-1]).T).sum()) for path in paths)
             travel += order.travel(paths, at)
-            bound += _bound(one_pass.face, setup, at, sheet, flip) if bounded else 0.0
+            bound += _bound(one_pass.face, setup, at, machine, sheet, flip) if bounded else 0.0
             times = _times(paths, at, setup, machine)
             seconds += float(times.sum()) + (machine.motion.tool_time if setup.tool else 0.0)
             by_hand = machine.tools.change == "operator"
@@ -53,12 +53,37 @@ def measure(
     )
 
 
-def _bound(face: Face, setup: SetUp, at: Floats, sheet: Sheet, flip: Flip) -> float:
+def _bound(
+    face: Face, setup: SetUp, at: Floats | None, machine: Machine, sheet: Sheet, flip: Flip
+) -> float:
     """Return the travel, mm, that no order of the set-up's strokes goes below."""
-    strokes = [(s, operation) for operation in setup.operations for s in operation.strokes]
-    lines = [_seen(np.array(stroke.points), face, sheet, flip) for stroke, _ in strokes]
-    returns = [operation.repeats % 2 == 0 and not stroke.closed for stroke, operation in strokes]
-    return travel_bound(lines, at, returns)
+    if machine.bed.pull:
+        return _pulled_bound(face, setup, at, machine, sheet, flip)
+    found = 0.0
+    for operation in setup.operations:  # in this order, whatever the order within each
+        lines = [_seen(np.array(each.points), face, sheet, flip) for each in operation.strokes]
+        returns = [operation.repeats % 2 == 0 and not each.closed for each in operation.strokes]
+        found += travel_bound(lines, at, returns)
+        at = None
+    return found
+
+
+def _pulled_bound(
+    face: Face, setup: SetUp, at: Floats | None, machine: Machine, sheet: Sheet, flip: Flip
+) -> float:
+    """Return that bound where strokes may only be pulled: within each, travel is as it is."""
+    own, lines = 0.0, []
+    for operation in setup.operations:
+        for stroke in operation.strokes:
+            parts = stroke_ways(
+                stroke,
+                operation,
+                machine,
+                lambda points: _seen(np.asarray(points), face, sheet, flip),
+            )
+            own += order.travel(parts, parts[0][0])
+            lines.append(np.array([parts[0][0], parts[-1][-1]]))
+    return own + travel_bound(lines, at)
 
 
 def _paths(face: Face, setup: SetUp, machine: Machine, sheet: Sheet, flip: Flip) -> list[Floats]:

@@ -7,6 +7,7 @@ went wrong is one copy. The copies are visited row by row, to and fro, from wher
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -83,7 +84,7 @@ def _each(middles: Floats, start: Floats, repeats: int, draw: Draw) -> Strokes:
     found: list[Stroke] = []
     for k in visited(middles, start):
         own = draw(k, start)
-        found += [stroke.model_copy(update={"piece": k + 1}) for stroke in own]
+        found += [replace(stroke, piece=k + 1) for stroke in own]
         start = _end(own[-1], repeats) if own else start
     return tuple(found)
 

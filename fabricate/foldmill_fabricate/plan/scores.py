@@ -80,6 +80,8 @@ def strokes(
     found = route(spots, pattern.edges[edges], start, corners)
     held = {vertex: by for vertex, by in stops.items() if by > 0}
     pieces = _divided(found.trails, spots, held)
+    if machine.bed.pull:
+        return order.by_middles(pieces, start)
     if len(pieces) == len(found.trails) and repeats % 2:
         return tuple(pieces)
     return order.sorted_strokes(pieces, repeats, start)

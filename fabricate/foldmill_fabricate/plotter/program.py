@@ -9,12 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-
-import numpy as np
+from math import hypot
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.errors import ProgramRefused
-from foldmill_fabricate.toolpath.motion import Pace, move_seconds
+from foldmill_fabricate.toolpath.motion import Pace, hop_seconds
 
 XY = tuple[float, float]
 
@@ -180,18 +179,17 @@ class _Timer:
             seconds = self.machine.motion.lift_time
         if not given:
             return seconds
-        steps = np.reshape(given, (-1, 2))  # raises ValueError for half a pair
-        way = np.vstack([[self.at], np.cumsum(np.vstack([[self.at], steps]), 0)[1:]])
-        if not self.relative:
-            way[1:] = steps
-        self.at, self.moved = (float(way[-1, 0]), float(way[-1, 1])), True
-        moves = np.diff(way, axis=0) / self.machine.axes.units_per_mm
+        for x, y in zip(given[::2], given[1::2], strict=True):  # ValueError for half a pair
+            seconds += self._go((self.at[0] + x, self.at[1] + y) if self.relative else (x, y))
+        return seconds
+
+    def _go(self, to: XY) -> float:
+        units, motion = self.machine.axes.units_per_mm, self.machine.motion
+        dx, dy = (to[0] - self.at[0]) / units, (to[1] - self.at[1]) / units
+        self.at, self.moved = to, True
         if self.down:
-            return seconds + sum(self.pace.go_on(dx, dy, self.speed) for dx, dy in moves.tolist())
-        motion = self.machine.motion
-        lengths = np.hypot(*moves.T)
-        hops = move_seconds(lengths, motion.travel_speed, motion.acceleration)
-        return seconds + float(hops.sum())
+            return self.pace.go_on(dx, dy, self.speed)
+        return hop_seconds(hypot(dx, dy), motion.travel_speed, motion.acceleration)
 
 
 def _divided(piece: bytes, limit: int, number: int) -> Iterator[bytes]:

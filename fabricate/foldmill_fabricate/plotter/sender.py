@@ -99,11 +99,11 @@ def send(
     machine that has gone silent, PlotterError for a port that fails; their text says what the
     operator has to do.
     """
-    made_ready(program, machine)  # refused before a byte leaves
+    job = made_ready(program, machine)  # refused before a byte leaves
     session = choice.session(port, machine, clock or clock_of(port), wish)
     try:
         return _Delivery(session, book or NoBook()).run(
-            program, start, progress or (lambda _: None)
+            program, job, start, progress or (lambda _: None)
         )
     except KeyboardInterrupt:
         raise Stopped(f"Stopped. {session.stop()}") from None
@@ -122,11 +122,14 @@ class _Delivery:
     def __init__(self, session: Session, book: Book) -> None:
         self._session, self._book = session, book
 
-    def run(self, program: bytes, start: Start, tell: Callable[[Progress], None]) -> Delivery:
+    def run(
+        self, program: bytes, job: Job, start: Start, tell: Callable[[Progress], None]
+    ) -> Delivery:
         session, began = self._session, self._session.clock.now()
         session.open()
         machine = session.machine
-        job = made_ready(program, machine, session.buffer)
+        if session.buffer != machine.serial.buffer:  # as the machine says
+            job = made_ready(program, machine, session.buffer)
         if not start.is_fresh:
             limit = longest(session.buffer, machine)
             job = spoken(machine).rest(job, machine, limit, start)

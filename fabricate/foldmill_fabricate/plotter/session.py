@@ -97,17 +97,23 @@ class Session:
             self._heard += self.port.read(ready)
             self._sort()
 
-    def wait_a_byte(self, deadline: float = inf) -> None:
-        """Wait for the next byte, a short while, and not far beyond a deadline."""
+    def wait_a_byte(self, deadline: float = inf, least: int = 1) -> None:
+        """Wait for the next byte, a short while, and not far beyond a deadline.
+
+        least : bytes that are to come at least, for all of which is waited at once.
+        """
         self.heed()
         left = deadline - self.clock.now()
         if left < READ_SLICE:
             self.clock.sleep(min(left, _SHORT, _FEW * self.byte_time))
             self.listen()
             return
-        came = self.port.read(1)
+        came = self.port.read(max(1, least - len(self._heard)))
         if came:
-            self._heard += came + self.port.read(self.port.in_waiting)
+            self._heard += came
+            ready = self.port.in_waiting
+            if ready:
+                self._heard += self.port.read(ready)
             self._sort()
 
     @property

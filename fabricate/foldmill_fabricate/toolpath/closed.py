@@ -7,6 +7,7 @@ anyhow; overcut and repeats go on from there, as the plan says.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,7 @@ def _from(stroke: Stroke, vertex: int) -> Stroke:
     """Return a closed stroke begun at another of its vertices; an open one has but one."""
     rim = stroke.points[:-1]
     points = (*rim[vertex:], *rim[: vertex + 1])
-    return stroke.model_copy(update={"points": points}) if vertex else stroke
+    return replace(stroke, points=points) if vertex else stroke
 
 
 def depths(strokes: Sequence[Stroke]) -> Indices:

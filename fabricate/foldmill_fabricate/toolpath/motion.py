@@ -31,6 +31,13 @@ def move_seconds(lengths: ArrayLike, speed: float, acceleration: float) -> NDArr
     return seconds
 
 
+def hop_seconds(length: float, speed: float, acceleration: float) -> float:
+    """Return the same of one move, for loops that have one at a time."""
+    if length < speed * speed / acceleration:
+        return 2 * sqrt(length / acceleration)
+    return length / speed + speed / acceleration
+
+
 def path_seconds(points: ArrayLike, speed: float, motion: Motion) -> float:
     """Return the time along a polyline (n, 2) mm with the tool down, s."""
     pace = Pace(motion)

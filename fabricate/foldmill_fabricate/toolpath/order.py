@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +48,18 @@ def _ordered(strokes: Sequence[Stroke], start: Floats, returns: bool) -> list[St
     ]
 
 
+def by_middles(strokes: Sequence[Stroke], start: Floats) -> tuple[Stroke, ...]:
+    """Return strokes whose direction is not ours to choose in an order of near middles.
+
+    start : (2,) where the tool is.
+    """
+    middles = np.array([np.mean([s.points[0], s.points[-1]], axis=0) for s in strokes])
+    ends = np.repeat(middles.reshape(-1, 1, 2), 2, axis=1)
+    return tuple(strokes[k] for k, _ in sequence.order(ends, start, returns=True))
+
+
 def _backwards(stroke: Stroke) -> Stroke:
-    return stroke.model_copy(update={"points": stroke.points[::-1]})
+    return replace(stroke, points=stroke.points[::-1])
 
 
 def travel(paths: Sequence[Floats], start: Floats) -> float:

@@ -5,6 +5,10 @@ matched at the least total distance (the Chinese postman's way: Edmonds and John
 closed tours that this makes are joined into one by the cheapest exchanges. The tour is cut where
 the tool is up. For a tool that turns for nothing and a drawing in one piece this is exact: as few
 strokes as can be, and no shorter travel with so few.
+
+Of a drawing in several pieces the strokes are ordered as separate ones (``sequence``), so that
+hops matter only inside large pieces: where a piece has few odd vertices, the ends of each way are
+linked with each other, and nothing is matched.
 """
 
 from __future__ import annotations
@@ -15,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foldmill_fabricate.toolpath import corners as corner
-from foldmill_fabricate.toolpath import hops, proven, sequence, tours
+from foldmill_fabricate.toolpath import hops, pieces, proven, sequence, tours
 from foldmill_fabricate.toolpath.corners import Corners
 
 Floats = NDArray[np.float64]
@@ -34,8 +38,8 @@ class Route:
     bound: float
     """mm of travel that no order of as few strokes goes below."""
     gap: float = 0.0
-    """mm by which the hops between strokes may be longer than the least there are, before strokes
-    are joined; 0 where their matching is proved to be the best of all."""
+    """mm by which the hops may be longer than the least there are: in one piece, before strokes are
+    joined, and 0 where their matching is proved to be the best of all; in several, as ordered."""
 
 
 def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners) -> Route:
@@ -47,21 +51,39 @@ def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners
     if not len(edges):
         return Route((), 0.0)
     links = _Links(points, edges, start, corners)
+    own = pieces.labels(edges)
+    if own.max():
+        return _in_pieces(links, own, points, start)
     hopped = links.match_hops()
     links.join_at_vertices()
     links.join_by_hops()
-    found = links.trails()
-    order = found if _is_in_one_piece(edges) else _sorted(points, found, start)
-    return Route(tuple(order), hopped.bound, hopped.length - hopped.bound)
+    return Route(tuple(links.trails()), hopped.bound, hopped.length - hopped.bound)
 
 
-def _is_in_one_piece(edges: Indices) -> bool:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+def _in_pieces(links: _Links, own: Indices, points: Floats, start: Floats | None) -> Route:
+    """Return the route over a drawing in several pieces; own : (E,) the piece of each edge."""
+    left = links.left()
+    bound = proven.least(links.places[np.r_[left, links.depot, links.depot + 1]])
+    few = pieces.with_few_ends(left, own)
+    links.link_own_ends(few)
+    links.match_hops()
+    links.join_at_vertices(loops_only=len(few) == len(left))
+    if len(few) < len(left) or links.loops().any():
+        links.join_by_hops()
+    order = _sorted(points, _by_place(points, links.trails()), start)
+    ways = np.array([points[[trail[0], trail[-1]]] for trail in order])
+    plain = [(k, False) for k in range(len(order))]
+    return Route(tuple(order), bound, sequence.travelled(ways, start, plain, returns=False) - bound)
 
-    names, at = np.unique(edges, return_inverse=True)
-    links = coo_array((np.ones(len(edges)), at.reshape(-1, 2).T), shape=(len(names),) * 2)
-    return bool(connected_components(links, directed=False)[0] == 1)
+
+def _by_place(points: Floats, trails: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Return strokes by where they lie, whatever order and direction they were drawn in.
+
+    Of hops that are equally short the first is taken: then those side by side follow each other.
+    """
+    place = points.tolist()
+    turned = [min(trail, trail[::-1], key=lambda way: place[way[0]]) for trail in trails]
+    return sorted(turned, key=lambda way: (place[way[0]], place[way[-1]]))
 
 
 def _sorted(
@@ -111,9 +133,21 @@ class _Links:
             stays[here] = turn <= self.corners.lift
         self.down[one] = self.down[other] = stays
 
+    def left(self) -> Indices:
+        """Return the ends that are linked with none yet, but for the depot's."""
+        return np.flatnonzero(self.partner[:-2] < 0)
+
+    def loops(self) -> NDArray[np.bool_]:
+        """Return of each tour whether the tool never hops in it."""
+        return pieces.loops(self.partner, self.vertices)
+
+    def link_own_ends(self, left: Indices) -> None:
+        """Link both ends of each way that begins at these."""
+        self.partner[left] = pieces.other_ends(left, self.partner)
+
     def match_hops(self) -> proven.Matched:
         """Link what is left over at odd vertices and the depot."""
-        left = np.flatnonzero(self.partner[:-2] < 0)
+        left = self.left()
         if not len(left):
             self.partner[-2:] = self.depot + 1, self.depot
             return proven.Matched(np.zeros((0, 2), np.intp), 0.0, 0.0)
@@ -123,13 +157,20 @@ class _Links:
         self.partner[one], self.partner[other] = other, one
         return found
 
-    def join_at_vertices(self) -> None:
-        """Join tours that pass the same vertex, where exchanging their links costs least."""
+    def join_at_vertices(self, *, loops_only: bool = False) -> None:
+        """Join tours that pass the same vertex, where exchanging their links costs least.
+
+        loops_only : whether two that both have hops are left apart.
+        """
         for _ in range(_ROUNDS):
             tour = tours.labels(self.partner)
             if not tour.max():
                 return
             one, other = _meeting(self.vertices[:-2], tour)
+            if loops_only:
+                loop = self.loops()
+                kept = loop[tour[one // 2]] | loop[tour[other // 2]]
+                one, other = one[kept], other[kept]
             gain = self._gain(one, other)
             changed = tours.exchange(self.partner, tour, one, other, gain)
             if not len(changed[0]):
@@ -150,29 +191,41 @@ class _Links:
         return cost
 
     def join_by_hops(self) -> None:
-        """Join what is left: drawings in several pieces."""
+        """Join what is left: drawings in several pieces. A loop is opened at one place only."""
         near = 8
         while True:
             tour = tours.labels(self.partner)
             if not tour.max():
                 return
             one, other, gain = hops.exchanges(self.places, self.partner, tour, self.vertices, near)
-            changed = tours.exchange(self.partner, tour, one, other, gain)
+            changed = tours.exchange(self.partner, tour, one, other, gain, once=self.loops())
             self.down[np.concatenate(changed)] = False
             near = near if len(changed[0]) else 4 * near
 
     def trails(self) -> list[tuple[int, ...]]:
-        """Walk the tour from the depot, and cut it where the tool is up."""
-        at = self.vertices.tolist()
+        """Walk the tours, that of the depot first, and cut them where the tool is up."""
+        tour = tours.labels(self.partner)
+        hopped = np.flatnonzero(self.vertices != self.vertices[self.partner])
+        first = hopped[np.unique(tour[hopped // 2], return_index=True)[1]]
+        own = int(tour[self.depot // 2])
+        starts = [end for end in first.tolist() if tour[end // 2] != own]
+        links, at = self.partner.tolist(), self.vertices.tolist()
+        found = self._cut(tours.walk(links, self.depot + 1), at)
+        for end in starts:
+            found += self._cut([end, *tours.walk(links, end ^ 1)], at)
+        return found
+
+    def _cut(self, entered: list[int], at: list[int]) -> list[tuple[int, ...]]:
+        """Return the vertices along each stroke of a tour; entered : ends, from a hop on."""
         found: list[tuple[int, ...]] = []
         trail: list[int] = []
-        for end in tours.walk(self.partner, self.depot + 1):
+        for end in entered:
             if trail and not self.down[end]:
                 found.append(tuple(trail))
                 trail = []
             trail = trail or [at[end]]
             trail.append(at[end ^ 1])
-        return [*found, tuple(trail)]
+        return [*found, tuple(trail)] if trail else found
 
 
 def _matched(places: Floats) -> proven.Matched:

@@ -29,21 +29,31 @@ def labels(partner: Partners) -> Indices:
 
 
 def exchange(
-    partner: Partners, tour: Indices, one: Indices, other: Indices, gain: Floats
+    partner: Partners,
+    tour: Indices,
+    one: Indices,
+    other: Indices,
+    gain: Floats,
+    once: NDArray[np.bool_] | None = None,
 ) -> tuple[Indices, Indices]:
     """Join tours, in place, by the exchanges that cost least; return the ends that were linked.
 
     one, other : (n,) ends that may be linked with each other, their old partners likewise;
-    gain : (n,) what that costs more than before. Each link is exchanged at most once.
+    gain : (n,) what that costs more than before; once : of each tour, whether no more than one of
+    its links is exchanged. Each link is exchanged at most once.
     """
     group = list(range(int(tour.max()) + 1))
     done: list[tuple[int, int]] = []
     used: set[int] = set()
+    opened: set[int] = set()
+    only = set() if once is None else set(np.flatnonzero(once).tolist())
     for k in np.argsort(gain, kind="stable").tolist():
         a, b = int(one[k]), int(other[k])
-        p, q = _root(group, int(tour[a // 2])), _root(group, int(tour[b // 2]))
-        if p == q or a in used or b in used:
+        here, there = int(tour[a // 2]), int(tour[b // 2])
+        p, q = _root(group, here), _root(group, there)
+        if p == q or a in used or b in used or {here, there} & opened:
             continue
+        opened |= {here, there} & only
         c, d = int(partner[a]), int(partner[b])
         group[p] = q
         used |= {a, b, c, d}
@@ -60,12 +70,11 @@ def _root(group: list[int], k: int) -> int:
     return k
 
 
-def walk(partner: Partners, start: int) -> list[int]:
+def walk(links: list[int], start: int) -> list[int]:
     """Return the ends at which edges are entered, along the tour that leaves by ``start``.
 
-    The edge of ``start`` itself is not among them.
+    links : the partner of each end. The edge of ``start`` itself is not among the ends.
     """
-    links = partner.tolist()
     found, end = [], links[start]
     while end // 2 != start // 2:
         found.append(end)

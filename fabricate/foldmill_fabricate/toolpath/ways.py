@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.passes import SetUp
-from foldmill_fabricate.toolpath import knife
+from foldmill_fabricate.passes import Operation, SetUp, Stroke
+from foldmill_fabricate.toolpath import knife, pulled
 from foldmill_fabricate.toolpath.snapping import Grid
-from foldmill_fabricate.toolpath.traversal import traversals
+from foldmill_fabricate.toolpath.traversal import traversal, traversals
 
 Floats = NDArray[np.float64]
 See = Callable[[ArrayLike], Floats]
@@ -46,7 +46,7 @@ class Joined(NamedTuple):
 
 def joined(setup: SetUp, machine: Machine, see: See) -> Joined:
     """Return the ways of a set-up in order of work, in one array: there may be very many."""
-    if machine.tools.host_offset:
+    if machine.tools.host_offset or machine.bed.pull:
         found = ways(setup, machine, see)
         counts = np.array([len(way.points) for way in found], np.intp)
         light = np.array([way.light for way in found], bool)
@@ -61,6 +61,10 @@ def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
     """Return the ways of a set-up in order of work; see : sheet points (n, 2) to the machine's."""
     tips: list[Floats] = []
     for operation in setup.operations:
+        if machine.bed.pull:
+            for stroke in operation.strokes:
+                tips += stroke_ways(stroke, operation, machine, see)
+            continue
         laid = traversals(operation.strokes, operation)
         tips += np.split(see(laid.points), np.cumsum(laid.counts)[:-1])
     offset = machine.tools.host_offset
@@ -72,3 +76,10 @@ def ways(setup: SetUp, machine: Machine, see: See) -> list[Way]:
     if setup.swivel_force:
         return entry + [Way(*way) for way in knife.lifted_ways(tips, offset, heading, grid)]
     return entry + [Way(way) for way in knife.holder_ways(tips, offset, heading, grid)]
+
+
+def stroke_ways(stroke: Stroke, operation: Operation, machine: Machine, see: See) -> list[Floats]:
+    """Return the ways (n, 2) of the tip along one stroke; several where it may only pull."""
+    if machine.bed.pull is None:
+        return [see(traversal(stroke, operation))]
+    return pulled.ways(stroke, see(np.asarray(stroke.points)), operation, machine.bed.pull)

@@ -114,6 +114,15 @@ class Drawing:
             _farthest(self.wanted, self.drawn, found.j, found.i, self.tolerance),
         )
 
+    def forget(self) -> None:
+        """Keep the lines and what was measured; the rest, which is large, is found anew if asked.
+
+        The trees over all pieces of a large sheet would else be held for every program of a job.
+        """
+        kept = {*self.__dataclass_fields__, "deviation"}
+        for name in set(vars(self)) - kept:
+            del vars(self)[name]
+
     def faulty_share(self) -> float:
         """Return which share of what was to be drawn is missing or was drawn elsewhere."""
         whole = float(self.wanted.lengths.sum())

@@ -39,13 +39,15 @@ def read_folder(path: str | Path) -> JobFiles:
     there is nothing to compare with.
     """
     folder = Path(path)
-    plan = _plan(folder)
+    _look_for(folder, PLAN)
     data = _bytes(folder, PATTERN)
+    pattern = _pattern(data, folder / PATTERN)  # first: reading it takes much for a moment
+    plan = _plan(folder)
     named = [folder / Path(file.name).name for file in plan.programs]
     others = [file for suffix in SUFFIXES for file in folder.glob(f"*{suffix}")]
     files = {file for file in [*named, *others] if file.is_file()}
     programs = {file.name: file.read_bytes() for file in sorted(files)}
-    return JobFiles(plan, _pattern(data, folder / PATTERN), data, programs)
+    return JobFiles(plan, pattern, data, programs)
 
 
 def verify_folder(path: str | Path, fit: Fit | None = None) -> Verification:
@@ -68,9 +70,16 @@ def verify_files(files: JobFiles, fit: Fit | None = None) -> Verification:
     return replace(result, findings=(edited, *result.findings))
 
 
-def _bytes(folder: Path, name: str) -> bytes:
+def _look_for(folder: Path, name: str) -> None:
     if not folder.is_dir():
         raise UnreadableFile(f"There is no folder {folder}; name the one that plan has written.")
+    if not (folder / name).exists():
+        raise UnreadableFile(
+            f"{folder / name}: No such file or directory. Plan again into this folder."
+        )
+
+
+def _bytes(folder: Path, name: str) -> bytes:
     try:
         return (folder / name).read_bytes()
     except OSError as error:

@@ -85,7 +85,7 @@ def _next_instruction(text: str, place: int) -> int:
 
 
 def _array(points: list[tuple[float, float]]) -> Floats:
-    return np.array(points, float).reshape(-1, 2)
+    return np.array(points, float) if points else np.zeros((0, 2))
 
 
 @dataclass

@@ -18,6 +18,7 @@ from foldmill_fabricate.verify.languages import replay
 from foldmill_fabricate.verify.limits import outside
 from foldmill_fabricate.verify.offsets import wrong_offset
 from foldmill_fabricate.verify.planned import SUFFIXES, Planned, at, planned, program_files
+from foldmill_fabricate.verify.pulls import pushed
 from foldmill_fabricate.verify.steering import steered
 from foldmill_fabricate.verify.suspects import find_cause
 from foldmill_fabricate.verify.virtual_sheet import Line, modelled_offset, to_carrier
@@ -56,8 +57,10 @@ def prove_programs(plan: Plan, programs: Mapping[str, bytes], fit: Fit | None) -
         replayed = _replay(plan, file, data, strokes, fit)
         replays.append(replayed)
         findings += [*replayed.trace.findings, *outside(plan, file.name, replayed.trace)]
-        findings += replayed.steering
+        findings += [*replayed.steering, *pushed(plan, file.name, replayed.trace)]
         findings += _drawing_findings(plan, replayed, strokes, fit)
+        _ = replayed.drawing.deviation
+        replayed.drawing.forget()
     return ProgramProof(tuple(replays), tuple(findings))
 
 

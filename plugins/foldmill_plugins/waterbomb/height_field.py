@@ -114,10 +114,16 @@ def _sane(file: str, found: NDArray[Any]) -> Floats:
     if found.dtype.kind not in "biuf":
         raise ImpossibleGeometry(f"{file} holds no real numbers; save heights as plain numbers.")
     heights: Floats = found.astype(np.float64)
-    if heights.ndim != 2 or min(heights.shape) < FEWEST:
-        size = " × ".join(str(n) for n in heights.shape)
+    size = " × ".join(str(n) for n in heights.shape)
+    if heights.ndim != 2 and heights.size:
         raise ImpossibleGeometry(
-            f"{file} holds {size} heights; a smooth surface needs at least {FEWEST} × {FEWEST}."
+            f"{file} holds an array of {heights.ndim} dimensions ({size or 'one number'}); a field "
+            "of heights has 2, rows and columns. Save one layer of it, or one colour."
+        )
+    if not heights.size or min(heights.shape) < FEWEST:
+        raise ImpossibleGeometry(
+            f"{file} holds {size} heights; a smooth surface needs at least {FEWEST} × {FEWEST}. "
+            "Sample it more finely."
         )
     bad = np.argwhere(~np.isfinite(heights))
     if len(bad):

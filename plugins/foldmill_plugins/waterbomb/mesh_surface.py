@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from foldmill import ImpossibleGeometry
 from foldmill_plugins.waterbomb.disk import Disk
 from foldmill_plugins.waterbomb.named_file import NamedFile
+from foldmill_plugins.waterbomb.obj_faults import first_fault
 from foldmill_plugins.waterbomb.patch import patch
 from foldmill_plugins.waterbomb.sound import sound
 from foldmill_plugins.waterbomb.surfaces import Surface
@@ -102,14 +103,22 @@ def _loaded(params: MeshSurface) -> tuple[Floats, Indices]:
     try:
         points, faces = _welded(content, suffix[1:])
     except Exception as error:  # a broken file breaks its reader in whatever way it likes
-        raise ImpossibleGeometry(
-            f"{params.file} is no {suffix} file with one triangle mesh: "
-            f"{' '.join(str(error).split())[:200] or type(error).__name__}."
-        ) from None
+        told = " ".join(str(error).split())[:200] or type(error).__name__
+        raise ImpossibleGeometry(_broken(params.file, content, suffix, told)) from None
     if not np.isfinite(points).all() or not len(faces) or not np.ptp(points, axis=0).max() > 0:
-        raise ImpossibleGeometry(f"{params.file} holds no mesh with finite corners and triangles.")
+        told = "it holds no triangles, or all its corners in one place"
+        raise ImpossibleGeometry(_broken(params.file, content, suffix, told))
     _require_few(params.file, len(faces))
     return points, faces
+
+
+def _broken(file: str, content: bytes, suffix: str, told: str) -> str:
+    """Say what is wrong with a file of which its reader says ``told``."""
+    fault = first_fault(content) if suffix == ".obj" else ""
+    return (
+        f"{file} is no {suffix} file with one triangle mesh: {fault or told}. Save the mesh again "
+        "as triangles, from the program it was made with."
+    )
 
 
 def _require_few(file: str, count: int) -> None:

@@ -8,25 +8,17 @@ from pathlib import Path
 import pytest
 from command import Run
 
-from foldmill_fabricate.passes import Plan
-
 SAMPLES = Path(__file__).parents[2] / "samples"
 CROSS = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
 <rect width="100" height="100" fill="none" stroke="black"/>
 <path d="M0 0L100 100" stroke="{}"/></svg>"""
 
 
-def test_a_drawing_by_somebody_else_becomes_a_verified_job_in_one_command(foldmill: Run) -> None:
-    drawing = str(SAMPLES / "os_simpleVertex.svg")
-    code, _, err = foldmill("plan", drawing, "-o", "job")
+def test_a_plan_asks_how_large_a_drawing_is_before_it_writes_anything(foldmill: Run) -> None:
+    code, _, err = foldmill("plan", str(SAMPLES / "os_simpleVertex.svg"), "-o", "job")
     assert code == 2
     assert "--width" in err
     assert not Path("job").exists()
-    assert foldmill("plan", drawing, "--width", "200", "-o", "job", "--to", "hpgl")[0] == 0
-    plan = Plan.model_validate_json(Path("job/plan.json").read_bytes())
-    assert [work.face for work in plan.passes] == ["front", "reverse"]
-    assert "import-side" in {finding.code for finding in plan.findings}
-    assert foldmill("verify", "job")[0] == 0
 
 
 def test_import_writes_a_fold_file_and_says_what_it_changed(foldmill: Run) -> None:

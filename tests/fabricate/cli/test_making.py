@@ -13,7 +13,8 @@ from slit_forms import form
 from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate.cli.app import main
-from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.cli.making import gap
+from foldmill_fabricate.passes import Figures, Plan
 
 
 @pytest.fixture
@@ -91,6 +92,25 @@ def test_copies_are_planned_counted_and_verified(
     told = json.loads(capsys.readouterr().out)
     assert told["quantity"] == 1
     assert "copies" not in told
+
+
+def test_the_plan_says_how_far_its_travel_is_above_what_no_order_goes_below(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert foldmill("plan", "stool.fold", "-o", "job", "--json") == 0
+    figures = json.loads(capsys.readouterr().out)["figures"]
+    above = figures["travel"] - figures["travel_bound"]
+    assert figures["travel_gap"] == pytest.approx(above)
+    assert 0 < above < figures["travel"]
+    assert foldmill("plan", "stool.fold", "-o", "again") == 0
+    said = capsys.readouterr().out
+    assert f"m, {above / 1000:.2f} m above {figures['travel_bound'] / 1000:.2f} m, which" in said
+
+
+def test_a_small_gap_is_told_as_a_share_too() -> None:
+    known = Figures(strokes=2, lifts=2, drawn=9, travel=1030, travel_bound=1000, seconds=1)
+    assert gap(known) == ", 0.03 m (3.0 %) above 1.00 m, which no order goes below"
+    assert gap(known.model_copy(update={"travel_bound": 0})) == ""
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from decimal import ROUND_HALF_UP, Decimal
 from itertools import pairwise
 from pathlib import Path
@@ -177,9 +178,7 @@ def test_a_stroke_shorter_than_a_step_draws_nothing_and_repeats_no_point() -> No
             assert all(a != b for a, b in pairwise(run))
     tiny = hand_made.plan()
     score = tiny.passes[1].setups[0]
-    stroke = (
-        score.operations[0].strokes[0].model_copy(update={"points": ((10.0, 10.0), (10.001, 10.0))})
-    )
+    stroke = replace(score.operations[0].strokes[0], points=((10.0, 10.0), (10.001, 10.0)))
     operation = score.operations[0].model_copy(update={"strokes": (stroke,)})
     setup = score.model_copy(update={"operations": (operation,)})
     work = tiny.passes[1].model_copy(update={"setups": (setup,)})

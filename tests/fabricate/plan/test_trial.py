@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -52,7 +53,7 @@ def test_a_test_cut_on_the_part_is_refused(tmp_path: Path) -> None:
     middle = (130.0, 120.0), (150.0, 120.0)
     own = made.passes[0].setups[0]
     operation = own.operations[0]
-    stroke = operation.strokes[0].model_copy(update={"points": middle})
+    stroke = replace(operation.strokes[0], points=middle)
     moved = operation.model_copy(update={"strokes": (stroke,)})
     work = made.passes[0].model_copy(
         update={"setups": (own.model_copy(update={"operations": (moved,)}),)}

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 from stools import machine
 
-from foldmill_fabricate.toolpath import corners, order
+from foldmill_fabricate.toolpath import corners, order, pieces
 from foldmill_fabricate.toolpath.routing import Route, route
 
 Graph = tuple[np.ndarray, np.ndarray]
@@ -104,6 +104,33 @@ def test_a_drawing_in_one_piece_has_the_least_travel(start: np.ndarray | None) -
     assert order.travel(way, way[0][0] if start is None else start) == pytest.approx(best)
     assert found.bound == pytest.approx(best)
     assert len(found.trails) == len(odd) // 2
+
+
+@pytest.mark.parametrize("few", [0, 20, 1000])
+def test_a_drawing_in_several_pieces_is_drawn_whole_however_its_ends_are_joined(
+    few: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Squares apart, a large net with many ends, and small ones whose ends are not matched."""
+    monkeypatch.setattr(pieces, "FEW", few)
+    square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], float)
+    cross = np.array([[0, 0], [2, 0], [4, 0], [2, 2], [2, -2]], float)
+    parts = [
+        (square + np.array([-20, 9]), [[0, 1], [1, 2], [2, 3], [3, 0]]),
+        (square + np.array([-30, 0]), [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]),
+        (cross + np.array([-10, 0]), [[0, 1], [1, 2], [1, 3], [4, 1]]),
+        miura(6, 7),
+    ]
+    sizes = np.cumsum([0, *(len(points) for points, _ in parts)])
+    points = np.vstack([own for own, _ in parts])
+    edges = np.vstack([np.array(e) + by for (_, e), by in zip(parts, sizes[:-1], strict=True)])
+    found = route(points, edges, np.zeros(2), corners.free_turning())
+    drawn = Counter(tuple(sorted(side)) for trail in found.trails for side in pairwise(trail))
+    assert drawn == Counter(tuple(sorted(edge)) for edge in edges.tolist())
+    odd = [int((np.bincount(np.array(e).ravel()) % 2).sum()) for _, e in parts]
+    assert len(found.trails) == sum(max(1, count // 2) for count in odd)
+    way = ways(points, found)
+    assert found.bound + found.gap == pytest.approx(order.travel(way, np.zeros(2)))
+    assert 0 < found.bound < found.bound + found.gap
 
 
 @given(st.integers(0, 10_000), st.integers(4, 25), st.floats(0.3, 1.0))

@@ -21,7 +21,7 @@ import json, sys
 import numpy as np
 from foldmill_fabricate.toolpath import sequence
 ends = 100 * np.random.default_rng(5).random((25, 2, 2))
-both = [sequence.order(ends, np.zeros(2), returns=r, kicks=40) for r in (False, True)]
+both = [sequence.order(ends, np.zeros(2), returns=r) for r in (False, True)]
 print(json.dumps(both))
 """
 
@@ -55,27 +55,15 @@ def test_kicks_never_make_the_way_longer(returns: bool) -> None:
 
 def test_random_lines_end_within_four_per_cent_of_the_bound() -> None:
     ends = lines(250)
-    way = sequence.order(ends, None, kicks=4000)
-    bound = travel_bound(list(ends), None, rounds=200)
+    way = sequence.order(ends, None)
+    bound = travel_bound(list(ends), None)
     assert bound <= sequence.travelled(ends, None, way, False) <= 1.04 * bound
 
 
-def test_kicks_per_stroke_fall_on_a_large_sheet(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sequence, "is_compiling", lambda: True)
+def test_kicks_per_stroke_fall_on_a_large_sheet() -> None:
     each = [sequence._kicks(n) / n for n in (1000, 10_000, 300_000)]
     assert each[0] > each[1] > each[2]
     assert sequence._kicks(10_000) > sequence._kicks(1000)
-
-
-def test_small_sheets_are_kicked_as_often_without_a_compiler(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    kicks = []
-    for compiling in (True, False):
-        monkeypatch.setattr(sequence, "is_compiling", lambda compiling=compiling: compiling)
-        kicks.append([sequence._kicks(n) for n in (5, 50, 200)])
-        assert compiling or sequence._kicks(5000) == sequence.ALIKE
-    assert kicks[0] == kicks[1]
 
 
 @pytest.mark.parametrize("returns", [False, True])

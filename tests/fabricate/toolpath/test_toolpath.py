@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from foldmill_fabricate.passes import Operation, Role, Stroke
 from foldmill_fabricate.toolpath import motion, sequence, trails
 from foldmill_fabricate.toolpath.bounds import travel_bound
+from foldmill_fabricate.toolpath.priced_trees import Places, least_tree
 from foldmill_fabricate.toolpath.traversal import traversal
 
 
@@ -66,6 +67,50 @@ def test_few_strokes_are_ordered_as_well_as_can_be_and_never_below_the_bound(ret
         best = shortest(ends, start, returns)
         assert travel_bound(list(ends), start, returns) <= best + 1e-9
         assert total == pytest.approx(best)
+
+
+def _dearest(places: Places, prices: np.ndarray) -> float:
+    """The least tree by Kruskal's way over all pairs, mates first: a second implementation."""
+    count = len(places.mates)
+    root = list(range(count))
+
+    def top(k: int) -> int:
+        return k if root[k] == k else top(root[k])
+
+    ways = []
+    for j in range(count):
+        for i in range(j):
+            mated = places.mates[i] == j
+            near = min(np.hypot(*(p - q)) for p in places.spots[i] for q in places.spots[j])
+            cost = prices[i] + prices[j] + (0.0 if mated else near)
+            ways.append((not mated, cost, i, j))
+    total = 0.0
+    for _, cost, i, j in sorted(ways):
+        if top(i) != top(j):
+            root[top(i)] = top(j)
+            total += cost
+    return total
+
+
+@pytest.mark.parametrize("returning", [False, True])
+def test_prices_never_prove_more_than_the_least_tree_over_all_pairs(returning: bool) -> None:
+    rng = np.random.default_rng(3)
+    spots = rng.random((24, 2, 2))
+    spots[:, 1] = spots[:, 1] if returning else spots[:, 0]
+    mates = np.full(24, -1) if returning else np.arange(24) ^ 1
+    places = Places(spots, mates, loose=True)
+    for _ in range(5):
+        prices = 0.2 * rng.standard_normal(24)
+        assert least_tree(places, prices)[0] == pytest.approx(_dearest(places, prices))
+
+
+def test_rows_of_strokes_on_one_line_have_a_bound() -> None:
+    ends = np.array([[[5.0 * k, 0], [5.0 * k + 3, 0]] for k in range(40)])
+    assert travel_bound(list(ends), np.zeros(2)) == pytest.approx(2 * 39)
+    assert travel_bound(list(ends), np.zeros(2), dense=10) == pytest.approx(2 * 39)
+    assert travel_bound(list(ends[:1]), np.array([-4.0, 0])) == pytest.approx(4)
+    assert travel_bound(list(ends[:1]), None, returns=True) == 0
+    assert travel_bound(list(ends[:2]), None, returns=True) == pytest.approx(2)
 
 
 def test_a_knife_goes_there_and_back_without_lifting() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -53,7 +54,7 @@ def redrawn(plan: Plan, change: Change) -> Plan:
 
 
 def shifted(stroke: Stroke, dx: float, dy: float) -> Stroke:
-    return stroke.model_copy(update={"points": tuple((x + dx, y + dy) for x, y in stroke.points)})
+    return replace(stroke, points=tuple((x + dx, y + dy) for x, y in stroke.points))
 
 
 def a_copy_is_not_drawn(plan: Plan) -> Plan:
@@ -108,13 +109,11 @@ def a_copys_valleys_are_scored_on_the_front(plan: Plan) -> Plan:
 
 def strokes_are_said_to_belong_to_another_copy(plan: Plan) -> Plan:
     swap = {1: 2, 2: 1}
-    return redrawn(
-        plan, lambda _f, _r, s: s.model_copy(update={"piece": swap.get(s.piece, s.piece)})
-    )
+    return redrawn(plan, lambda _f, _r, s: replace(s, piece=swap.get(s.piece, s.piece)))
 
 
 def a_stroke_belongs_to_a_copy_that_is_not_there(plan: Plan) -> Plan:
-    return redrawn(plan, lambda _f, _r, s: s.model_copy(update={"piece": 9}) if s.piece == 4 else s)
+    return redrawn(plan, lambda _f, _r, s: replace(s, piece=9) if s.piece == 4 else s)
 
 
 def the_outline_of_a_copy_is_cut_in_two_goes(plan: Plan) -> Plan:

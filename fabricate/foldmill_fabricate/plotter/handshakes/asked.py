@@ -188,7 +188,8 @@ class Asked(Proving):
         """Wait for the open question's answer, and learn from it."""
         if self._asked is None:
             return
-        answer = self.session.answer(self._soon)
+        least = 0 if self._of_error else max(0, self._bound)
+        answer = self.session.answer(self._soon, least)
         if answer is None and self.session.places > self._places:
             self._missed()
             return

@@ -104,13 +104,16 @@ class HpSession(Session):
         """Return the extended status, a sum of bits; 0 for silence."""
         return self.control(_STATUS) or 0
 
-    def answer(self, deadline: float) -> str | None:
-        """Return the next answer to device control; None for none by then."""
+    def answer(self, deadline: float, least: int = 0) -> str | None:
+        """Return the next answer to device control; None for none by then.
+
+        least : the smallest number that it can be.
+        """
         self.listen()
         while not self._numbers:
             if self.clock.now() >= deadline:
                 return None
-            self.wait_a_byte(deadline)
+            self.wait_a_byte(deadline, len(str(least)) + len(self.ends))
         return self._numbers.popleft()
 
     def answer_at_hand(self) -> str | None:

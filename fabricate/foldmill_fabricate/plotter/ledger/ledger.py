@@ -10,11 +10,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import BindParameter, Connection, Update, bindparam, insert, select, update
+from sqlalchemy import Connection, insert, select
 from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import reading, words, writing
+from foldmill_fabricate.plotter.ledger.advancing import Advance
 from foldmill_fabricate.plotter.ledger.reading import (
     not_ready,
     program_row,
@@ -52,26 +53,6 @@ def ledger_file() -> Path:
     return state_folder() / "ledger.sqlite"
 
 
-def _writing() -> Update:
-    """Return the statement that writes down how far the holder of a token is.
-
-    It is built once: building it takes longer than writing, and every stroke is written down.
-    """
-    sheet: BindParameter[str] = bindparam("of")
-    number: BindParameter[int] = bindparam("nth")
-    token: BindParameter[int] = bindparam("with")
-    program = (PROGRAMS.c.sheet == sheet) & (PROGRAMS.c.number == number)
-    running = select(PROGRAMS.c.sheet).where(
-        program, PROGRAMS.c.token == token, PROGRAMS.c.state == State.RUNNING.value
-    )
-    mine = (RUNS.c.sheet == sheet) & (RUNS.c.number == number) & (RUNS.c.token == token)
-    change = update(RUNS).where(mine, running.exists())
-    return change.values(sent=bindparam("sent"), acked=bindparam("acked"))
-
-
-_WRITE = _writing()
-
-
 def utc() -> datetime:
     """Return the time on the wall."""
     return datetime.now(UTC)
@@ -90,6 +71,7 @@ class Ledger:
             if isinstance(place, Path):
                 place.parent.mkdir(parents=True, exist_ok=True)
             self._engine = connect(place)
+            self._advance = Advance(self._engine)
         except (SQLAlchemyError, OSError) as error:
             reason = str(error).splitlines()[0]
             raise LedgerRefused(
@@ -185,10 +167,7 @@ class Ledger:
 
     def write(self, run: Run, sent: int, acked: int) -> None:
         """Write down how far a run is; raises Fenced where it lost its token."""
-        holder = {"of": run.sheet, "nth": run.number, "with": run.token}
-        with self._engine.begin() as at:
-            done = at.execute(_WRITE, {**holder, "sent": sent, "acked": acked}).rowcount
-        if done != 1:
+        if not self._advance(run.sheet, run.number, run.token, sent, acked):
             raise Fenced(_fenced(run))
 
     def end(self, run: Run, state: State, why: str) -> None:

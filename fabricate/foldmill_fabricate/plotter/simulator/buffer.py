@@ -54,6 +54,12 @@ class InputBuffer:
             self.traffic.fullest = len(self.data)
         return True
 
+    def store_all(self, data: bytes) -> None:
+        """Keep bytes of the program for which there is room."""
+        self.traffic.program += data
+        self.data += data
+        self.traffic.fullest = max(self.traffic.fullest, len(self.data))
+
     def discard(self, but: int = 0) -> None:
         """Drop what waits, but for so many bytes at its end."""
         dropped = len(self.data) - but

@@ -10,7 +10,7 @@ from math import hypot
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet, Step
-from foldmill_fabricate.toolpath.motion import Pace, move_seconds
+from foldmill_fabricate.toolpath.motion import Pace, hop_seconds
 
 
 @dataclass
@@ -107,7 +107,7 @@ class Carriage:
             seconds = self._pace.go_on(dx, dy, self.speed)
         else:
             speed = travel or motion.travel_speed
-            seconds = float(move_seconds(hypot(dx, dy), speed, motion.acceleration))
+            seconds = hop_seconds(hypot(dx, dy), speed, motion.acceleration)
         self.line = Line(before, to, lead, seconds)
         return seconds
 

@@ -44,6 +44,11 @@ class ControlChannel:
     """"", "esc", "dot", or the letter whose parameters are coming in."""
     _fields: list[str] = field(default_factory=list)
 
+    @property
+    def under_way(self) -> bool:
+        """Whether a sequence has begun and not ended."""
+        return bool(self._seen)
+
     def feed(self, byte: int) -> int | Command | None:
         """Take a byte: it comes back as HP-GL, ends a sequence, or is swallowed (None)."""
         if byte == ESC:  # whatever was begun is given up

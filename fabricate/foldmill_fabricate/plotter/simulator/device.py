@@ -14,7 +14,7 @@ from foldmill_fabricate.plotter.simulator.buffer import InputBuffer, Traffic
 from foldmill_fabricate.plotter.simulator.carriage import Carriage
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet
 from foldmill_fabricate.plotter.simulator.faults import Fault, Schedule, Trouble
-from foldmill_fabricate.plotter.simulator.firmware import Firmware
+from foldmill_fabricate.plotter.simulator.firmware import Firmware, Plain
 from foldmill_fabricate.plotter.simulator.gpgl import GpglFirmware
 from foldmill_fabricate.plotter.simulator.grbl import GrblFirmware
 from foldmill_fabricate.plotter.simulator.hp import FRAMING, HpFirmware
@@ -124,6 +124,10 @@ class Device:
     @property
     def next_event(self) -> float:
         """When something happens here by itself, a fault to come included, s."""
+        if not self.active and not self.schedule.waiting:  # asked between any two events
+            busy, said = self._busy_until, self.out.done
+            said = said if said < inf else self.out.next_event
+            return said if busy == -inf or said < busy or self._rest else busy
         own = self.next_own_event
         return min(own, self.schedule.next_begin) if self.schedule.waiting else own
 
@@ -161,6 +165,19 @@ class Device:
             self.firmware.hear(heard, now)
         if self.schedule.waiting:
             self._meet(now)
+
+    @property
+    def plain(self) -> Plain:
+        """What it takes off the line now without anything else happening."""
+        if self.active or self._damage or self.schedule.waiting or self.buffer.dropping:
+            return Plain()
+        return self.firmware.plain
+
+    def receive_plain(self, data: bytes, now: float) -> None:
+        """Take such bytes off the line, the last of them now."""
+        self.now = now
+        self.traffic.received += data
+        self.firmware.hear_plain(data)
 
     def garble(self) -> None:
         """Note a byte that came at another rate than the machine's."""

@@ -3,7 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import NamedTuple, Protocol
+
+
+class Plain(NamedTuple):
+    """What a machine now takes off the line without anything else happening."""
+
+    bytes: frozenset[int] = frozenset()
+    most: int = 0
+    """How many of them."""
+
+
+class Careful:
+    """Of firmware that looks at each byte by itself."""
+
+    plain = Plain()
+
+    def hear_plain(self, data: bytes) -> None:
+        """There are none."""
 
 
 class Firmware(Protocol):
@@ -14,6 +31,13 @@ class Firmware(Protocol):
 
     def hear(self, byte: int, now: float) -> None:
         """Take a byte off the line."""
+
+    @property
+    def plain(self) -> Plain:
+        """What only lengthens the buffer, and nothing else, as long as nothing else happens."""
+
+    def hear_plain(self, data: bytes) -> None:
+        """Take such bytes off the line."""
 
     def begin(self, now: float) -> float | None:
         """Begin the next thing and return how long it takes, s; None where there is nothing."""

@@ -14,6 +14,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from foldmill_fabricate.plotter.simulator.firmware import Careful
+
 if TYPE_CHECKING:
     from foldmill_fabricate.plotter.simulator.device import Device
 
@@ -24,7 +26,7 @@ _LONGEST = 1 << 16
 """Bytes of one command."""
 
 
-class GpglFirmware:
+class GpglFirmware(Careful):
     """Takes whole commands, and draws them leg by leg."""
 
     def __init__(self, device: Device) -> None:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from foldmill_fabricate.plotter.simulator import gcode
+from foldmill_fabricate.plotter.simulator.firmware import Careful
 from foldmill_fabricate.plotter.simulator.grbl_motion import Leg, Motors
 from foldmill_fabricate.plotter.simulator.grbl_settings import Settings
 
@@ -47,7 +48,7 @@ class _Modal:
     """mm: where the last planned leg ends"""
 
 
-class GrblFirmware:
+class GrblFirmware(Careful):
     """Parser and planner; the motors are another's business."""
 
     def __init__(self, device: Device) -> None:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING
 
 from foldmill_fabricate.plotter.simulator.agreement import ACK, ENQ, Agreement
 from foldmill_fabricate.plotter.simulator.control import (
+    ESC,
     HP_7475,
     HP_7550,
     PARAMETER_RANGE,
     Command,
     ControlChannel,
 )
+from foldmill_fabricate.plotter.simulator.firmware import Plain
 from foldmill_fabricate.plotter.simulator.hpgl import Hpgl
 from foldmill_fabricate.plotter.simulator.parser import ENDS, UNKNOWN, Parser
 from foldmill_fabricate.plotter.simulator.quirks import Quirk
@@ -26,6 +29,15 @@ OVERLAP, FRAMING, OVERFLOW = 10, 15, 16
 _LAST_CHARACTER = 126
 _ANSWER_TIME = 0.002
 """s from a question's last byte to the answer's first."""
+
+_BLANK = bytes(range(0x21))
+"""Bytes between which no instruction is."""
+
+
+@cache
+def _plain(signs: frozenset[int], idle: bool) -> frozenset[int]:
+    """Return the bytes that are no signs; to a machine that waits, ends of units are."""
+    return frozenset(range(256)) - signs - (ENDS if idle else frozenset())
 
 
 class HpFirmware:
@@ -83,6 +95,24 @@ class HpFirmware:
             self._enquire(now)
         else:
             self._store(heard, now)
+
+    @property
+    def plain(self) -> Plain:
+        """Bytes that go into the buffer and begin nothing."""
+        device, agreed = self._device, self.agreement
+        watchful = self._garbled or Quirk.SECOND_IN_CANCELS in self._quirks
+        if watchful or not self._on or self._control.under_way:
+            return Plain()
+        kept = agreed.low if agreed.xon and agreed.xoff and not self._held else 0
+        signs = frozenset((ESC, agreed.enq or ENQ, agreed.trigger))
+        return Plain(_plain(signs, device.idle), device.free - kept - 1)
+
+    def hear_plain(self, data: bytes) -> None:
+        """Keep them."""
+        ended = max(data.rfind(b";"), data.rfind(b"\x03"))
+        behind = data[ended + 1 :].translate(None, _BLANK)
+        self._inside = bool(behind) or (self._inside and ended < 0)
+        self._device.buffer.store_all(data)
 
     def begin(self, now: float) -> float | None:
         """Begin the next unit. It frees its bytes then: it is decoded."""

@@ -263,9 +263,11 @@ class Simulator:
             until = self.clock.now()
             while True:
                 sending, working = self.line.next_event, self.device.next_event
-                event = min(sending, working)
+                event = min(working, sending)
                 if event > until:
                     break
+                if sending < working and self._take_run(until, working):
+                    continue
                 self._pass(event)
                 if sending <= event:
                     self._arrive(self.line.happen(event))
@@ -276,6 +278,24 @@ class Simulator:
             if until > self._now:
                 self._pass(until)
             return event
+
+    def _take_run(self, until: float, before: float) -> bool:
+        """Let plain bytes arrive in one go, up to ``until`` and before something else happens.
+
+        Return whether any did.
+        """
+        line = self.line
+        if line.held or line.urgent or self.honours_cts or self.unplugged:
+            return False
+        if line.done == inf or self.baud != self.machine.serial.baud:
+            return False
+        plain = self.device.plain
+        taken, last = line.run(plain.bytes, plain.most, until, before)
+        if taken:
+            self.gauge.use.busy += last - self._now
+            self._now = last
+            self.device.receive_plain(bytes(taken), last)
+        return bool(taken)
 
     def _sense(self) -> None:
         """Look at the cable, and at CTS where the host's end obeys it."""

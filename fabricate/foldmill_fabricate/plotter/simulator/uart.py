@@ -73,6 +73,26 @@ class Transmitter:
         self._start(now)
         return byte
 
+    def run(
+        self, wanted: frozenset[int], most: int, until: float, before: float
+    ) -> tuple[bytearray, float]:
+        """Let bytes arrive one after the other; return them, and when the last of them did, s.
+
+        They end with the first that is not wanted, after ``most`` of them, or where the next would
+        arrive after ``until`` or not before ``before``. Nothing holds or overtakes them.
+        """
+        queue, byte, done, last = self.queue, self._byte, self.done, inf
+        taken = bytearray()
+        while byte in wanted and done <= until and done < before and len(taken) < most:
+            taken.append(byte)
+            last = done
+            if not queue:
+                done = inf
+                break
+            byte, done = queue.popleft(), last + self.byte_time + self.between
+        self._byte, self.done = byte, done
+        return taken, last
+
     @property
     def _may_send(self) -> bool:
         return not self.held or self.grace > 0
