@@ -1,6 +1,6 @@
 """How fast formats are written, beside the plainest loop or the library that writes the same.
 
-    python benchmarks/formats.py [CREASES]...
+    python benchmarks/formats.py [--job] [CREASES]...
 
 A sheet with so many creases (default 5,000 and 50,000) is written in each format; medians of five
 runs, ours and the other by turns. Columns:
@@ -10,17 +10,28 @@ other       s: a plain loop that writes the same bytes, compared; for DXF, SVG a
             svgwrite and pikepdf writing the same entities
 ratio       ours / other
 growth      ours / ours of the first size, for each crease: 1 is linear
+
+With --job the whole way is gone instead, each size in a process of its own: the plan for a machine
+with one tool, the folder with all its files, and its verification. Columns: s of the processor for
+each and for all, peak MB above those of the program alone, MB of files, and how time and memory
+grow for each crease.
 """
 
 from __future__ import annotations
 
 import gc
 import json
+import os
+import resource
+import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Mapping
 from io import BytesIO, StringIO
+from itertools import pairwise
+from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -302,5 +313,56 @@ def main(sizes: list[int]) -> None:
             )
 
 
+def memory() -> float:
+    """Return the peak memory of this process so far, MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def job(size: int) -> None:
+    """Plan, write and verify a job of so many creases; print its row as JSON."""
+    from foldmill_fabricate import folder
+    from foldmill_fabricate.plan import make
+    from foldmill_fabricate.verify import read_folder, verify_files
+
+    material, machine = shelf.material("pp-0.75"), shelf.machine("generic-hpgl-600")
+    make(grid(50), material, machine)  # compiles and imports what is used
+    fold, begins = grid(size), memory()
+    laps = [process_time()]
+    plan = make(fold, material, machine)
+    laps.append(process_time())
+    with tempfile.TemporaryDirectory() as target:
+        folder.write(fold, plan, Path(target), ["svg", "dxf", "cf2", "hpgl"])
+        laps.append(process_time())
+        found = verify_files(read_folder(Path(target)))
+        laps.append(process_time())
+        written = sum(path.stat().st_size for path in Path(target).iterdir()) / 1e6
+    if not found.ok:
+        raise SystemExit(f"{size} creases: the job does not verify")
+    seconds = [end - begin for begin, end in pairwise(laps)]
+    row = [len(fold.pattern.edges), *seconds, sum(seconds), memory() - begins, written]
+    sys.stdout.write(json.dumps(row))
+
+
+def jobs(sizes: list[int]) -> None:
+    """Print the table of whole jobs."""
+    heads = ("creases", "plan", "write", "verify", "all", "MB", "files MB", "time ×", "MB ×")
+    print("".join(f"{head:>10}" for head in heads))
+    first: list[float] = []
+    for size in sizes:
+        words = [sys.executable, __file__, "--one-job", str(size)]
+        said = subprocess.run(words, env=os.environ, stdout=subprocess.PIPE, check=True)
+        count, *rest = json.loads(said.stdout)
+        each = [rest[3] / count, rest[4] / count]
+        first = first or each
+        grown = [mine / theirs for mine, theirs in zip(each, first, strict=True)]
+        print(f"{count:10}" + "".join(f"{value:10.2f}" for value in (*rest, *grown)), flush=True)
+
+
 if __name__ == "__main__":
-    main([int(word) for word in sys.argv[1:]] or [5000, 50_000])
+    wanted = [int(word) for word in sys.argv[1:] if word.isdigit()] or [5000, 50_000]
+    if "--one-job" in sys.argv:
+        job(wanted[0])
+    elif "--job" in sys.argv:
+        jobs(wanted)
+    else:
+        main(wanted)

@@ -50,7 +50,8 @@ def read() -> dict: return SAID
 @app.post("/bare")
 def write(asked: dict) -> dict: return SAID
 
-with socket.create_server(("127.0.0.1", 0)) as listening:
+with socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP) as listening:
+    listening.bind(("127.0.0.1", 0))
     print(listening.getsockname()[1], flush=True)
     config = uvicorn.Config(app, log_config=None, access_log=False)
     uvicorn.Server(config).run(sockets=[listening])

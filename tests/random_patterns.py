@@ -50,20 +50,16 @@ def _grid(nx: int, ny: int, halved: list[bool]) -> tuple[list[list[int]], list[b
     return edges, border
 
 
-def lines_of(
-    fold: Fold, digits: int = 6, of_angles: int = 6, with_added: bool = False
-) -> set[Known]:
+def lines_of(fold: Fold, digits: int = 6, of_angles: int = 6) -> set[Known]:
     """Return every line that is not added: its ends, mm from the lower left corner; what it is.
 
-    digits, of_angles : how many decimals of places and of fold angles are kept; with_added : those
-    too that only triangulate facets.
+    digits, of_angles : how many decimals of places and of fold angles are kept.
     """
     pattern = fold.pattern
     places = np.round(pattern.vertices - pattern.vertices.min(axis=0), digits) + 0.0
     angles = np.round(pattern.fold_angles, of_angles) + 0.0
     known: set[Known] = set()
-    kept = with_added | ~np.asarray(pattern.added, bool)
-    for k in np.flatnonzero(kept).tolist():
+    for k in np.flatnonzero(~np.asarray(pattern.added, bool)).tolist():
         (x0, y0), (x1, y1) = sorted(places[pattern.edges[k]].tolist())
         known.add(((x0, y0), (x1, y1), pattern.letters()[k], float(angles[k])))
     return known

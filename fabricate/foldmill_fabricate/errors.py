@@ -7,6 +7,7 @@
     │   └── DoesNotFit               too large for the blank, the carrier or the machine
     ├── CannotWrite (ValueError)     a plan that a format cannot hold
     ├── CannotSend (RuntimeError)    a job folder that must not be sent to a plotter
+    ├── CannotHold (ValueError)      a file that would not hold what the pattern has
     ├── CannotExplore (ValueError)   a sweep that is asked for in a way that means nothing
     └── EngineFailed (RuntimeError)  processes or a cluster that cannot do the work of a sweep
 """
@@ -30,6 +31,10 @@ class CannotWrite(FoldmillError, ValueError):
 
 class CannotSend(FoldmillError, RuntimeError):
     """A job folder that must not be sent."""
+
+
+class CannotHold(FoldmillError, ValueError):
+    """A file for another program that would not hold what the pattern has."""
 
 
 class CannotExplore(FoldmillError, ValueError):

@@ -25,11 +25,10 @@ Corner = tuple[int, int]
 
 def split(graph: Graph) -> Graph:
     """Open all cuts of a graph, in place; returns it."""
-    graph.cuts = [
-        list(edge) if letter == "C" else None
-        for edge, letter in zip(graph.edges, graph.letters, strict=True)
-    ]
-    if any(graph.cuts):
+    graph.cuts = [None] * len(graph.edges)
+    if "C" in graph.letters:
+        for k, letter in enumerate(graph.letters):
+            graph.cuts[k] = list(graph.edges[k]) if letter == "C" else None
         for edge in list(_lone(graph)):
             _bisect(graph, edge)
         _open(graph)

@@ -18,9 +18,11 @@ foldmill does not understand; writing gives it back:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from foldmill.design import Fold, Symmetry
 from foldmill.errors import InvalidPattern, UnreadableFile
@@ -154,6 +156,16 @@ def write(fold: Fold, *, triangulated: bool = False) -> str:
     return json_text.dump(data | ({"file_frames": further} if further else {}))
 
 
+def pattern_alone(fold: Fold, *, opened: bool = True) -> Frame:
+    """Return the one frame of a file that holds the pattern and nothing beside it.
+
+    No folded form, no other frames, no keys but those of the format itself, polygons whole where
+    they can be. opened : whether inner cuts become two boundaries each, as simulators want them.
+    """
+    graph = _graph(fold, list(fold.meta.get("fold", {}).get("corners", [])), False)
+    return _head(fold, {}) | _pattern_frame(fold, cuts.split(graph) if opened else graph)
+
+
 def _graph(fold: Fold, corners: list[int], triangulated: bool) -> Graph:
     names_triangles = fold.symmetry is not None and bool(np.any(fold.pattern.added))
     whole = None if triangulated or names_triangles else of_polygons(fold.pattern, corners)
@@ -204,12 +216,18 @@ def _pattern_frame(fold: Fold, graph: Graph) -> Frame:
     }
 
 
-def _places(vertices: Floats, graph: Graph) -> list[list[float]]:
-    places = vertices.tolist()
-    spread = [middle([places[i] for i in source]) for source in graph.vertex_source]
-    flat = iter(plains(spread))
+def _places(vertices: Floats, graph: Graph) -> list[Sequence[float]]:
     size = vertices.shape[1]
-    return [list(place) for place in zip(*[flat] * size, strict=True)]
+    flat = iter(plains(_spread(vertices, graph)))
+    return list(zip(*[flat] * size, strict=True))
+
+
+def _spread(vertices: Floats, graph: Graph) -> ArrayLike:
+    """Return the places of a graph's vertices: more than a pattern's where cuts were opened."""
+    if len(graph.vertex_source) == len(vertices):
+        return vertices  # what is split off comes behind all others
+    places = vertices.tolist()
+    return [middle([places[i] for i in source]) for source in graph.vertex_source]
 
 
 def _about(fold: Fold) -> Frame:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from foldmill.pattern import Assignment, CreasePattern
+from foldmill.pattern import Assignment, CreasePattern, Indices
 
 Source = tuple[int, ...]
 """Which elements one stands for: (i,) repeats i, (i, j) lies midway between both, () is new."""
@@ -100,7 +100,7 @@ def of_triangles(pattern: CreasePattern) -> Graph:
     numbers = iter(range(len(added)))
     owners = _owners(pattern)
     graph = Graph(
-        [(a, b) for a, b in pattern.edges.tolist()],
+        _pairs(pattern.edges),
         list(pattern.letters()),
         pattern.fold_angles.tolist(),
         pattern.faces.tolist(),
@@ -120,13 +120,15 @@ def of_polygons(pattern: CreasePattern, corners: list[int]) -> Graph | None:
     """
     added = _flags(pattern)
     dropped = {frozenset(edge) for edge in pattern.edges[added].tolist()}
-    loops = [_rim(group, dropped) for group in _groups(pattern)]
+    loops: list[list[int] | None] = (
+        [_rim(group, dropped) for group in _groups(pattern)] if dropped else pattern.faces.tolist()
+    )
     if None in loops or any(added & (pattern.assignments != Assignment.F)):
         return None
     starts = corners if len(corners) == len(loops) else [-1] * len(loops)
     kept = np.flatnonzero(~added)
     return Graph(
-        [(a, b) for a, b in pattern.edges[kept].tolist()],
+        _pairs(pattern.edges[kept]),
         [_LETTERS[code] for code in pattern.assignments[kept].tolist()],
         pattern.fold_angles[kept].tolist(),
         [_turned(loop, start) for loop, start in zip(loops, starts, strict=True) if loop],
@@ -134,6 +136,11 @@ def of_polygons(pattern: CreasePattern, corners: list[int]) -> Graph | None:
         numbered(len(kept)),
         numbered(len(loops)),
     )
+
+
+def _pairs(edges: Indices) -> list[tuple[int, int]]:
+    first, second = edges.T.tolist()  # by columns: a list for each edge would be garbage to collect
+    return list(zip(first, second, strict=True))
 
 
 def _flags(pattern: CreasePattern) -> np.ndarray[Any, np.dtype[np.bool_]]:

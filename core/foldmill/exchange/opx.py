@@ -79,15 +79,15 @@ def write(fold: Fold, *, canvas: float | None = None) -> str:
 
 
 def _head(count: int) -> list[str]:
+    """Return the beginning: lines as a property of the bean, which every known reader looks for."""
     return [
         '<?xml version="1.0" encoding="UTF-8"?>',
         '<java version="1.8.0" class="java.beans.XMLDecoder">',
-        ' <object class="oripa.DataSet" id="DataSet0">',
-        '  <void class="oripa.DataSet" method="getField">',
-        "   <string>lines</string>",
-        '   <void method="set">',
-        '    <object idref="DataSet0"/>',
-        f'    <array class="oripa.{_PROXY}" length="{count}">',
+        ' <object class="oripa.DataSet">',
+        *(row[4:] for row in _property("mainVersion", "int", "1")),
+        *(row[4:] for row in _property("subVersion", "int", "1")),
+        '  <void property="lines">',
+        f'   <array class="oripa.{_PROXY}" length="{count}">',
     ]
 
 
@@ -95,31 +95,28 @@ def _object(number: int, line: plain_lines.Line) -> list[str]:
     """Return the rows of one line; all its properties, as not every reader knows the rule of 0."""
     ends = {"x0": line.x0, "x1": line.x1, "y0": line.y0, "y1": line.y1}
     return [
-        f'     <void index="{number}">',
-        f'      <object class="oripa.{_PROXY}">',
+        f'    <void index="{number}">',
+        f'     <object class="oripa.{_PROXY}">',
         *_property("type", "int", str(line.type)),
         *(row for name, value in ends.items() for row in _property(name, "double", repr(value))),
-        "      </object>",
-        "     </void>",
+        "     </object>",
+        "    </void>",
     ]
 
 
 def _property(name: str, kind: str, value: str) -> list[str]:
     return [
-        f'       <void property="{name}">',
-        f"        <{kind}>{value}</{kind}>",
-        "       </void>",
+        f'      <void property="{name}">',
+        f"       <{kind}>{value}</{kind}>",
+        "      </void>",
     ]
 
 
 def _tail(size: float) -> list[str]:
     return [
-        "    </array>",
-        "   </void>",
+        "   </array>",
         "  </void>",
-        *(row[4:] for row in _property("mainVersion", "int", "1")),
         *(row[4:] for row in _property("paperSize", "double", repr(size))),
-        *(row[4:] for row in _property("subVersion", "int", "1")),
         " </object>",
         "</java>",
     ]

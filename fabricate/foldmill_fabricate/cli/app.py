@@ -16,6 +16,7 @@ from foldmill_fabricate.cli import (
     catalogue,
     designing,
     exploring,
+    exporting,
     importing,
     jobs,
     leading,
@@ -40,6 +41,7 @@ app = typer.Typer(
 catalogue.add_to(app)
 designing.add_to(app)
 importing.add_to(app)
+exporting.add_to(app)
 moving.add_to(app)
 exploring.add_to(app)
 searching.add_to(app)

@@ -1,7 +1,8 @@
 """SVG cutting drawings: mm, named Inkscape layers, style attributes, flat coordinates.
 
 Layer labels read ``ROLE Pen n Speed v Force f``: Inkscape's own HP-GL export then selects pen,
-speed and force by layer, and vpype numbers its layers by pen.
+speed and force by layer, and vpype numbers its layers by pen. Layers without output have a pen of
+their own and neither speed nor force.
 """
 
 from __future__ import annotations
@@ -90,15 +91,15 @@ def one(plan: Plan, view: d.Drawing) -> bytes:
         layer.add(svg.path(d=key, style=STROKE.format(group.layer.colour)))
         paths[key] = [path(line, view.height) for line in group.lines]
         svg.add(layer)
-    note = layers.layer(label=view.layers.note.name)
+    note = layers.layer(label=_label(plan, d.Group(view.layers.note, None, ())))
     note.add(_text(svg, view))
     svg.add(note)
     return to_bytes(svg, paths)
 
 
 def _label(plan: Plan, group: d.Group) -> str:
-    if group.setup is None:
-        return group.layer.name
+    if group.setup is None:  # a pen all the same: vpype would give it that of another layer
+        return f"{group.layer.name} Pen {group.layer.pen}"
     selects = plan.machine.tools.change == "select" and group.setup.tool
     pen = group.setup.tool if selects else group.layer.pen
     speed, force = hpgl.speed(group.setup), hpgl.force(group.setup)
@@ -119,7 +120,8 @@ _COLUMNS = (6.0, 40.0, 90.0, 112.0, 134.0)
 
 def _legend(plan: Plan, profile: Profile, master: d.Drawing) -> bytes:
     """Return a page that says what each layer of the drawings is for."""
-    used = {id(group.layer) for group in master.groups} | {id(master.layers.note)}
+    silent = {id(master.layers.note), id(master.layers.anchor)}
+    used = {id(group.layer) for group in master.groups} | silent
     rows = [row for row in legend(profile) if id(row.look) in used]
     svg = canvas(297.0, ROW * (len(rows) + 3))
     _row(svg, 1, [f"{plan.title}: what the layers of its drawings are (profile {profile.slug})"])

@@ -8,7 +8,7 @@ worst they all point the same way.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import hypot, sqrt
+from math import fsum, hypot, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,8 +50,8 @@ def reckon(plan: Plan) -> Budget | None:
     errors = [share.error for share in shares]
     return Budget(
         shares=shares,
-        likely=sqrt(sum(each**2 for each in errors)),
-        worst=sum(errors),
+        likely=sqrt(fsum(each**2 for each in errors)),  # the same in every Python, as sum is not
+        worst=fsum(errors),
         limit=plan.material.thickness / 2,
     )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import fsum
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,7 +51,7 @@ def measure(
         drawn=round(drawn, 3),
         travel=round(travel, 3),
         travel_bound=round(bound, 3),
-        seconds=round(seconds + sum(waits) + _put_away(passes, machine), 1),
+        seconds=round(seconds + fsum(waits) + _put_away(passes, machine), 1),
     )
 
 

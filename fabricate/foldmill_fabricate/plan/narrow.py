@@ -35,8 +35,8 @@ def facets(
     """
     least = plan.material.min_feature
     free = {frozenset(vertices.tolist()) for vertices in flaps}
-    for own in _vertices(pattern, number):
-        width = width_of(spots[own])
+    every = list(_vertices(pattern, number))
+    for own, width in zip(every, _widths(spots, every), strict=True):
         if width < least - NEARLY and frozenset(own.tolist()) not in free:
             x, y = spots[own].mean(axis=0).tolist()
             yield Finding(
@@ -47,6 +47,22 @@ def facets(
                 "Enlarge the design, or take a thinner material.",
                 (x, y),
             )
+
+
+def _widths(spots: Floats, facets: Sequence[Indices]) -> Floats:
+    """Return the width of each facet, mm; triangles, of which there may be many, all at once."""
+    widths = np.zeros(len(facets))
+    three = [k for k, own in enumerate(facets) if len(own) == 3]
+    if three:
+        corners = spots[np.array([facets[k] for k in three])]
+        step = np.roll(corners, -1, axis=1) - corners
+        arms = np.roll(corners, 1, axis=1) - corners
+        off = np.abs(arms[..., 0] * step[..., 1] - arms[..., 1] * step[..., 0])
+        widths[three] = (off / np.hypot(step[..., 0], step[..., 1])).min(axis=1)
+    for k, own in enumerate(facets):
+        if len(own) != 3:
+            widths[k] = width_of(spots[own])
+    return widths
 
 
 def width_of(points: Floats) -> float:
@@ -66,8 +82,9 @@ def _vertices(pattern: CreasePattern, number: Indices) -> Iterator[Indices]:
     starts = np.flatnonzero(np.diff(number[order], prepend=-1))
     if not (np.isin(pattern.assignments, (Assignment.M, Assignment.V))).any():
         return
+    corners = np.sort(pattern.faces, axis=1)
     for own in np.split(order, starts[1:]):
-        yield np.unique(pattern.faces[own])
+        yield corners[own[0]] if len(own) == 1 else np.unique(corners[own])
 
 
 def cuts(pattern: CreasePattern, spots: Floats, plan: Plan) -> Iterator[Finding]:

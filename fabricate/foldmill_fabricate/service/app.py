@@ -68,7 +68,7 @@ def _furnish(app: FastAPI, workshop: Workshop, policy: Policy, sandbox: Sandbox 
     app.state.stopping, app.state.followers = asyncio.Event(), Followers()
     app.state.metrics = Metrics()
     app.state.metrics.ask(computing(lambda: desk.sandbox.load))
-    app.state.metrics.ask(workshop.measured.collect)
+    app.state.metrics.ask(workshop.gauges.collect)
 
 
 @asynccontextmanager

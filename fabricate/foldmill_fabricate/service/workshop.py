@@ -34,7 +34,7 @@ class Workshop:
         self.places, self.works, self._name = places, works, name
         places.root.mkdir(parents=True, exist_ok=True)
         self.desk = Desk(places, plotters or {})
-        self.measured = Measured(self.desk)
+        self.gauges = Measured(self.desk)
         self._host: Host | None = None
 
     def start(self) -> None:
@@ -43,7 +43,7 @@ class Workshop:
             from foldmill_fabricate.jobs.host import Host
 
             logging.getLogger("dbos").setLevel(logging.ERROR)
-            self._host = Host(self.places, self.desk.plotters, self._name, self.measured)
+            self._host = Host(self.places, self.desk.plotters, self._name, self.gauges)
             self._host.start()
 
     def stop(self) -> None:

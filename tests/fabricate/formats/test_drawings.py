@@ -90,6 +90,11 @@ def test_foldmill_offers_its_formats_through_its_own_hook() -> None:
 def test_drawings_are_as_they_were(view: str, golden: Golden) -> None:
     golden.check(f"hand-made/{view}.svg", SVG[f"{view}.svg"])
     golden.check(f"hand-made/{view}.dxf", DXF[f"{view}.dxf"])
+    golden.check(f"hand-made/r12/{view}.dxf", R12[f"{view}.dxf"])
+
+
+def test_the_legend_is_as_it_was(golden: Golden) -> None:
+    golden.check("hand-made/legend.svg", SVG["legend.svg"])
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -125,8 +130,8 @@ def test_layer_labels_name_role_pen_speed_and_force_in_order_of_work() -> None:
         b"SCORE_BACK Pen 2 Speed 12 Force 240",
         b"CUT_INNER Pen 4 Speed 8 Force 300",
         b"CUT_OUTER Pen 4 Speed 8 Force 300",
-        b"ANCHOR",
-        b"NOTE",
+        b"ANCHOR Pen 5",
+        b"NOTE Pen 5",
     ]
 
 

@@ -48,7 +48,7 @@ def test_fold_holds_everything(fold: Fold) -> None:
 @settings(max_examples=40)
 def test_svg_holds_everything_fold_angles_as_opacity(fold: Fold) -> None:
     read = read_pattern(pattern_svg(fold), Options(gap=1e-3), name="x.svg")
-    assert lines_of(read.fold, 3, 0) == lines_of(fold, 3, 0, with_added=True)  # facets are drawn
+    assert lines_of(read.fold, 3, 0) == lines_of(fold, 3, 0)
     assert not [each for each in read.questions if each.option == "--width"]  # it is in mm
 
 

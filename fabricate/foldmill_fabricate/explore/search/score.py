@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import fsum
 from typing import Any
 
 from foldmill import Design, Fold, InvalidInput
@@ -93,7 +94,7 @@ class Judge:
 
     def distance(self, figures: dict[str, float]) -> float:
         """Return how far the targets are missed, in shares of their values."""
-        return sum(target.error(figures) for target in self.request.targets)
+        return fsum(target.error(figures) for target in self.request.targets)
 
     def excess(self, figures: dict[str, float]) -> float:
         """Return what sheet and shortest crease cost; 0 where both are kept."""
