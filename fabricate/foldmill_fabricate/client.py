@@ -121,9 +121,13 @@ class Client:
         """Make a design."""
         return self._post(models.Pattern, "/designs", request.model_dump(mode="json"))
 
-    def upload(self, content: bytes, *, planarise: bool = False) -> models.Pattern:
-        """Keep the pattern of a FOLD file."""
-        asked = {"planarise": str(planarise).lower()}
+    def upload(
+        self,
+        content: bytes,
+        said: models.Upload = models.Upload(),  # noqa: B008 - frozen
+    ) -> models.Pattern:
+        """Keep the pattern of a file; ``said`` : what it is, and what it does not say itself."""
+        asked = said.model_dump(mode="json", exclude_defaults=True)
         return self._send(models.Pattern, "/patterns", content, asked)
 
     def pattern(self, digest: str) -> models.Pattern:
@@ -267,7 +271,7 @@ class Client:
         asked = {"who": who} if who else {}
         return self._read(kind, self._answered("POST", path, json=body, params=asked))
 
-    def _send(self, kind: type[T], path: str, content: bytes, asked: Mapping[str, str]) -> T:
+    def _send(self, kind: type[T], path: str, content: bytes, asked: Mapping[str, Any]) -> T:
         answer = self._answered("POST", path, content=content, headers=_UPLOAD, params=asked)
         return self._read(kind, answer)
 

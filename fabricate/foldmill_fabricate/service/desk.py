@@ -10,7 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate.plotter.ledger import SheetRecord
-from foldmill_fabricate.service.models import DesignRequest, Pattern, Report, Verification
+from foldmill_fabricate.service.models import (
+    DesignRequest,
+    Pattern,
+    Report,
+    Upload,
+    Verification,
+)
 from foldmill_fabricate.service.sandbox import Limits, Sandbox
 from foldmill_fabricate.service.storage import ABOUT, JOB, Storage, read, write
 
@@ -45,9 +51,10 @@ class Desk:
         finally:
             shutil.rmtree(made, ignore_errors=True)
 
-    async def read(self, folder: Path, form: str, planarise: bool) -> Pattern:
+    async def read(self, folder: Path, said: Upload) -> Pattern:
         """Keep the pattern in the file ``upload`` of a folder."""
-        arguments = {"form": form, "planarise": planarise}
+        options = said.model_dump(mode="json")
+        arguments = {"form": options.pop("form"), "options": options}
         return await self._keep("read", arguments, folder, READING, "The file")
 
     async def design(self, request: DesignRequest) -> Pattern:

@@ -123,6 +123,38 @@ class DesignRequest(Wire):
     """Parameters that differ; what is stated replaces what was there, whole."""
 
 
+_Ratio = Annotated[float, Field(gt=0, le=1e9)]
+
+
+class Upload(Wire):
+    """What a person says of a file that it does not say itself."""
+
+    form: Literal["fold", "svg", "dxf", "cp", "opx"] = "fold"
+    """What the file is."""
+    planarise: bool = False
+    """FOLD: mend lines that cross; other formats always are."""
+    unit: Literal["mm", "cm", "m", "in", "pt", "px", "um", "nm"] | None = None
+    """What a unit of the file is, whatever the file says."""
+    scale: _Ratio | None = None
+    """How many times as large as the file says; mm per unit where it says nothing."""
+    width: _Ratio | None = None
+    """mm: how wide the pattern is; scales it."""
+    side: Literal["front", "back"] = "front"
+    """Which face of the sheet the file shows."""
+    mirror: bool = False
+    """Whether it is a mirror image."""
+    frame: int | None = Field(default=None, ge=0, le=10_000)
+    """FOLD: the number of the frame that is the pattern."""
+    by: Literal["auto", "layer", "colour"] = "auto"
+    """Whether layers or colours say what lines are."""
+    named: tuple[Annotated[str, Field(max_length=200)], ...] = Field(default=(), max_length=100)
+    """NAME=LETTER: what a colour or layer means, as #ff8800=M; B M V F U C, or skip."""
+    gap: _Ratio | None = None
+    """mm within which ends of lines meet."""
+    loose: Literal["refuse", "drop"] = "refuse"
+    """What becomes of lines that end inside the sheet."""
+
+
 class Pattern(Wire):
     """A crease pattern that is kept."""
 

@@ -8,8 +8,8 @@ from typing import BinaryIO
 from fastapi import Request
 from starlette.requests import ClientDisconnect
 
+from foldmill_fabricate.service.bounds import MOST_UPLOAD
 from foldmill_fabricate.service.problems import Forbidden, TooLarge
-from foldmill_fabricate.service.security import MOST_UPLOAD
 
 _PATIENCE = 60.0
 """s for a body to arrive."""

@@ -17,13 +17,10 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from foldmill_fabricate.service import problems
+from foldmill_fabricate.service.bounds import MOST_JSON, MOST_UPLOAD
 from foldmill_fabricate.service.problems import Forbidden, TooLarge
 from foldmill_fabricate.service.tokens import Tokens
 
-MOST_JSON = 1 << 20
-"""Bytes of a request."""
-MOST_UPLOAD = 32 << 20
-"""Bytes of an uploaded file."""
 UPLOADS = frozenset({"/api/v1/patterns", "/api/v1/plans/kept"})
 """The paths that take as much as that."""
 CUSTOM = "x-foldmill"

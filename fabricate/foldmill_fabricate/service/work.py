@@ -15,14 +15,16 @@ import numpy as np
 
 from foldmill import Assignment, Fold, installed
 from foldmill.check import check as check_fold
-from foldmill.errors import UnreadableFile
 from foldmill.exchange import fold as fold_file
-from foldmill.exchange import json_text, mesh
+from foldmill.exchange import mesh
+from foldmill.exchange.limits import Limits
 from foldmill.exchange.marking import marked
+from foldmill.exchange.options import Options, named
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate import folder as job_folder
 from foldmill_fabricate import pictures, profiles
 from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.importing.reading import read_pattern, require_answers
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Plan
@@ -30,13 +32,13 @@ from foldmill_fabricate.plan import make
 from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.service import as_cut as as_cuts
 from foldmill_fabricate.service import unpacking
+from foldmill_fabricate.service.bounds import MOST_UPLOAD
 from foldmill_fabricate.service.models import PlanOptions
 from foldmill_fabricate.verify import verify_folder
 
-MOST_ELEMENTS = 200_000
-"""Vertices, edges and faces of a file that is uploaded, together."""
+LIMITS = Limits(size=MOST_UPLOAD)
+"""Of a file that is uploaded."""
 PATTERN, UPLOAD = "pattern.fold", "upload"
-_COUNTED = ("vertices_coords", "edges_vertices", "faces_vertices")
 
 
 def warm() -> None:
@@ -44,9 +46,16 @@ def warm() -> None:
     installed()
 
 
-def read(folder: Path, form: str, planarise: bool) -> dict[str, Any]:
-    """Read ``upload``, leave it as ``pattern.fold`` and say what it is."""
-    return _kept(folder, READERS[form]((folder / UPLOAD).read_bytes(), planarise))
+def read(folder: Path, form: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Read ``upload``, leave it as ``pattern.fold`` and say what it is.
+
+    Raises UnreadableFile, for a file that does not say how large it is too.
+    """
+    content = (folder / UPLOAD).read_bytes()
+    said = Options(**{**options, "named": named(options["named"])})
+    found = read_pattern(content, said, name=f"The file.{form}", limits=LIMITS)
+    require_answers(found, "The file")
+    return _kept(folder, found.fold)
 
 
 def design(
@@ -180,31 +189,3 @@ def _drawn(fold: Fold, suffix: str) -> bytes:
     if suffix == ".png":
         return pictures.pattern_picture(fold)
     return mesh.write_mesh(fold, suffix)
-
-
-def _read_fold(content: bytes, planarise: bool) -> Fold:
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise UnreadableFile(
-            f"The file is no UTF-8 text: {error.reason}, byte {error.start}."
-        ) from None
-    _refuse_many(json_text.parse(text))
-    return fold_file.read(text, planarise=planarise)
-
-
-def _refuse_many(data: Mapping[str, Any]) -> None:
-    """Raise UnreadableFile where a file has more elements than anybody waits for."""
-    others = data.get("file_frames")
-    frames = [data, *(others if isinstance(others, list) else ())]
-    lists = [frame.get(key) for frame in frames if isinstance(frame, dict) for key in _COUNTED]
-    count = sum(len(each) for each in lists if isinstance(each, list))
-    if count > MOST_ELEMENTS:
-        raise UnreadableFile(
-            f"The file has {count:,} vertices, edges and faces; at most {MOST_ELEMENTS:,} are "
-            "read here. Leave out what is not to be cut, or read it on a machine of your own."
-        )
-
-
-READERS = {"fold": _read_fold}
-"""What can be uploaded: the name of a form, and its reader."""

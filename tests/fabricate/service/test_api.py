@@ -9,16 +9,21 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
 from services import running, square
 
-from foldmill import installed
+from foldmill import Assignment, installed
 from foldmill.exchange import fold as fold_file
+from foldmill.exchange.options import Options
 from foldmill_fabricate import shelf
+from foldmill_fabricate.client import Client
+from foldmill_fabricate.importing import read_pattern
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.service.models import Upload
 from foldmill_fabricate.service.problems import status_of
 from foldmill_fabricate.service.sandbox import TooBusy
 from foldmill_fabricate.verify import verify_folder
@@ -135,6 +140,40 @@ def test_lines_that_cross_are_mended_when_asked_and_else_refused(service: httpx.
     answer = service.post("/api/v1/patterns?planarise=true", json=crossed)
     assert answer.status_code == 201
     assert (answer.json()["vertices"], answer.json()["creases"]["V"]) == (5, 2)
+
+
+@pytest.mark.parametrize(
+    ("name", "asked"),
+    [
+        ("ff_pinwheel.opx", {}),
+        ("os_simpleVertex.svg", {"width": 120}),
+        ("os_waterbomb.svg", {"width": 200, "side": "back"}),
+    ],
+)
+def test_a_drawing_of_another_program_is_read_as_at_the_terminal(
+    service: httpx.Client, name: str, asked: dict[str, Any]
+) -> None:
+    file = Path(__file__).parents[2] / "samples" / name
+    form = file.suffix.removeprefix(".")
+    said = Upload.model_validate({"form": form, "width": 100, **asked})
+    with Client(str(service.base_url)) as client:
+        told = client.upload(file.read_bytes(), said)
+        fold = client.fold(told.id).decode()
+    here = read_pattern(file, Options(width=said.width, side=said.side))
+    assert np.allclose(fold_file.read(fold).pattern.vertices, here.fold.pattern.vertices)
+    assert told.creases == {each.name: here.fold.pattern.count(each) for each in Assignment}
+
+
+def test_a_drawing_of_unknown_size_is_asked_about(service: httpx.Client) -> None:
+    file = Path(__file__).parents[2] / "samples" / "ff_pinwheel.opx"
+    headers = {"content-type": "application/octet-stream", "x-foldmill": "1"}
+    path = "/api/v1/patterns"
+    answers = [
+        service.post(path, content=file.read_bytes(), headers=headers, params={"form": form})
+        for form in ("opx", "svg", "cp")
+    ]
+    assert [answer.status_code for answer in answers] == [422, 422, 422]
+    assert "--width" in answers[0].json()["detail"]
 
 
 def test_drawings_are_made_of_what_is_there(service: httpx.Client) -> None:

@@ -43,10 +43,11 @@ def test_soak_fuzzed_uploads_are_refused_with_a_sentence_while_the_service_answe
 
 
 def _judge(client: httpx.Client, seed: int) -> None:
-    """Send one file twice, once with its lines to be mended."""
-    for mended in ("false", "true"):
+    """Send one file as it is, with its lines to be mended, and as what it may not be."""
+    others = ("svg", "dxf", "cp", "opx")
+    for words in ({}, {"planarise": "true"}, {"form": others[seed % 4], "width": "100"}):
         answer = client.post(
-            "/api/v1/patterns", content=fuzzed(seed), params={"planarise": mended}, headers=_HEADERS
+            "/api/v1/patterns", content=fuzzed(seed), params=words, headers=_HEADERS
         )
         assert answer.status_code in {201, 422}, (seed, answer.status_code, answer.text)
         if answer.status_code == 422:

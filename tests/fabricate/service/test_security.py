@@ -10,7 +10,8 @@ import pytest
 from services import running, said, square
 
 from foldmill.errors import InvalidInput
-from foldmill_fabricate.service.security import MOST_JSON, MOST_UPLOAD, Policy
+from foldmill_fabricate.service.bounds import MOST_JSON, MOST_UPLOAD
+from foldmill_fabricate.service.security import Policy
 from foldmill_fabricate.service.server import policy
 from foldmill_fabricate.service.tokens import Scope, Tokens
 

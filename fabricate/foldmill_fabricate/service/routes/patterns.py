@@ -9,15 +9,19 @@ from fastapi.responses import FileResponse
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
-from foldmill_fabricate.service.models import DesignRequest, Digest, Pattern, Report
+from foldmill_fabricate.service.models import (
+    DesignRequest,
+    Digest,
+    Pattern,
+    Report,
+    Upload,
+)
 from foldmill_fabricate.service.receiving import receive
 from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, problems
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
 ROUTER = APIRouter(tags=["patterns"])
 At = Annotated[Desk, Depends(desk)]
-Form = Literal["fold"]
-"""What can be uploaded."""
 Drawing = Literal["pattern.svg", "pattern.png", "folded.glb", "folded.stl", "folded.obj"]
 _BODY: dict[str, Any] = {
     "requestBody": {
@@ -42,14 +46,13 @@ async def upload(
     at: At,
     _: Submitter,
     response: Response,
-    form: Annotated[Form, Query(description="What the file is.")] = "fold",
-    planarise: Annotated[bool, Query(description="Mend lines that cross.")] = False,
+    said: Annotated[Upload, Query()],
 ) -> Pattern:
     """Upload a pattern: the body is the file, as JSON or as application/octet-stream."""
     async with at.folder() as folder:
         with (folder / "upload").open("wb") as file:
             await receive(request, file)
-        return _made(await at.read(folder, form, planarise), response)
+        return _made(await at.read(folder, said), response)
 
 
 @ROUTER.get("/patterns", responses=READING)
