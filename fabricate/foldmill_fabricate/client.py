@@ -31,6 +31,7 @@ from foldmill_fabricate.jobs.values import (
     JobRecord,
     Question,
     Reply,
+    Rest,
     Submission,
 )
 from foldmill_fabricate.service import answers, models
@@ -218,6 +219,10 @@ class Client:
     def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
         """Change a job's place in the queue."""
         return self._want(name, "priority", {"priority": priority}, who)
+
+    def remake(self, name: str, said: Rest, who: str = "") -> JobRecord:
+        """Submit a job of what is missing on a sheet of an ended job."""
+        return self._want(name, "remake", said.model_dump(mode="json"), who)
 
     def history(self, name: str) -> list[Happening]:
         """Return who did what, and when, to a job and its sheets."""

@@ -203,6 +203,31 @@ def priority(
 
 
 @jobs.command()
+def remake(
+    job: JobId,
+    sheet: Annotated[str, typer.Option(help="Its id; default: the last of the job.")] = "",
+    doubtful: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Of strokes in doubt: cut, missing, or those that are missing, as 3,5-8; PROGRAM: "
+            "before it where there are several; repeatable."
+        ),
+    ] = None,
+    half: Annotated[
+        list[str] | None, typer.Option(help="Strokes that are cut in part; repeatable.")
+    ] = None,
+    rank: Annotated[int, typer.Option("--priority", help="Higher ones are made first.")] = 0,
+    who: Who = "",
+    as_json: AsJson = False,
+) -> None:
+    """Submit what is missing on a sheet of a job that was cancelled, or on one given up."""
+    from foldmill_fabricate.jobs import Rest
+
+    said = Rest(sheet=sheet, doubtful=tuple(doubtful or ()), half=tuple(half or ()), priority=rank)
+    _told(_desk(None)[0].remake(job, said, who), as_json)
+
+
+@jobs.command()
 def work(
     plotter: More = None,
     host_name: Annotated[

@@ -11,4 +11,5 @@ from foldmill_fabricate.jobs.values import Kind as Kind
 from foldmill_fabricate.jobs.values import Order as Order
 from foldmill_fabricate.jobs.values import Question as Question
 from foldmill_fabricate.jobs.values import Reply as Reply
+from foldmill_fabricate.jobs.values import Rest as Rest
 from foldmill_fabricate.jobs.values import Submission as Submission

@@ -6,6 +6,7 @@ same verbs over HTTP.
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -17,11 +18,12 @@ from foldmill_fabricate.jobs.ordering import options
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter, find
+from foldmill_fabricate.jobs.rest import plan_rest_elsewhere
 from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import JobStore
-from foldmill_fabricate.jobs.values import Happening, JobRecord, Question, Reply, Submission
-from foldmill_fabricate.plotter.ledger import SheetRecord
+from foldmill_fabricate.jobs.values import Happening, JobRecord, Question, Reply, Rest, Submission
+from foldmill_fabricate.plotter.ledger import SheetRecord, State
 
 
 class Jobs(Protocol):
@@ -69,6 +71,10 @@ class Jobs(Protocol):
 
     def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
         """Change a job's place in the queue."""
+        ...
+
+    def remake(self, name: str, said: Rest, who: str = "") -> JobRecord:
+        """Submit a job of what is missing on a sheet of an ended job."""
         ...
 
     def history(self, name: str) -> list[Happening]:
@@ -156,6 +162,42 @@ class Desk:
     def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
         """Change a job's place in the queue."""
         return self.store.prioritise(name, priority, who)
+
+    def remake(self, name: str, said: Rest, who: str = "") -> JobRecord:
+        """Plan what is missing on a sheet of an ended job, and submit that for the same plotter.
+
+        The same sheet again gives the job that is there. Raises JobRefused for a job that has not
+        ended or a sheet that is not its own, CannotPlan for what cannot be made.
+        """
+        job = self.store.job(name)
+        sheet = said.sheet.upper() or (job.sheets[-1] if job.sheets else "")
+        if not job.is_ended:
+            raise JobRefused(
+                f"Job {job.id} is {job.state.value}: it goes on by itself, or cancel it."
+            )
+        if sheet not in job.sheets:
+            known = ", ".join(job.sheets) or "none was begun"
+            raise JobRefused(f"Sheet {sheet!r} is none of job {job.id}: {known}.")
+        self._give_up(sheet, who)
+        with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
+            folder = Path(place) / "rest"
+            plan_rest_elsewhere(self.places, self.plans.folder(job.plan), folder, sheet, said)
+            plan = self.plans.keep(folder)
+        asked = Submission(
+            plan=plan,
+            remakes=sheet,
+            plotter=job.plotter,
+            priority=said.priority,
+            key=f"the rest of {sheet}",
+        )
+        return self.submit(asked, who)
+
+    def _give_up(self, sheet: str, who: str) -> None:
+        """Give up a sheet that its ended job has left between two programs: nobody goes on on it."""
+        record = self.store.ledger.sheet(sheet)
+        settled = {State.READY, State.DONE}
+        if record.is_begun and record.is_open and {one.state for one in record.records} <= settled:
+            self.store.ledger.give_up(sheet, who)
 
     def history(self, name: str) -> list[Happening]:
         """Return who did what, and when, to a job and its sheets."""

@@ -80,6 +80,18 @@ class JobRecord(_Value):
         return self.state in ENDED
 
 
+class Rest(_Value):
+    """What a person says of the strokes in doubt on a sheet, of which the rest is to be made."""
+
+    sheet: str = Field(default="", max_length=8)
+    """id of the sheet; empty for the last one of the job"""
+    doubtful: tuple[str, ...] = Field(default=(), max_length=100)
+    """cut, missing, or the missing strokes, as 3,5-8; PROGRAM: before it for one of many"""
+    half: tuple[str, ...] = Field(default=(), max_length=100)
+    """strokes that are cut in part, likewise"""
+    priority: int = Field(default=0, ge=-1000, le=1000)
+
+
 class Kind(StrEnum):
     """What a person is asked for."""
 

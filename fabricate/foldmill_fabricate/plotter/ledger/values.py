@@ -132,8 +132,10 @@ class Record:
 
     @property
     def doubtful(self) -> tuple[int, ...]:
-        """Strokes that may be cut, whole or in part."""
-        return tuple(sorted({*_strokes(run.doubtful for run in self.runs)} - {*self.certain}))
+        """Strokes that may be cut, whole or in part; one that goes on from inside it is."""
+        known = {*_strokes(run.doubtful for run in self.runs)}
+        known |= {self.first} if self.vertex else set()
+        return tuple(sorted(known - {*self.certain}))
 
     @property
     def left(self) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Depends, Path, Query, Response
 from fastapi.responses import FileResponse
 
 from foldmill.errors import UnknownName
-from foldmill_fabricate.jobs import JobRecord, JobState, Question, Reply, Submission
+from foldmill_fabricate.jobs import JobRecord, JobState, Question, Reply, Rest, Submission
 from foldmill_fabricate.jobs.values import Happening
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.service.callers import Caller, Operator, Submitter, Viewer
@@ -112,6 +112,14 @@ def cancel(job: Id, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> 
 def priority(job: Id, to: Priority, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """Change a job's place in the queue."""
     return shop.desk.prioritise(job, to.priority, _who(caller, who))
+
+
+@ROUTER.post("/jobs/{job}/remake", status_code=201, responses=CHANGING)
+def remake(job: Id, said: Rest, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+    """Submit a job of what is missing on a sheet of a job that has ended."""
+    made = shop.desk.remake(job, said, _who(caller, who))
+    shop.wake()
+    return made
 
 
 @ROUTER.get("/jobs/{job}/history", responses=READING)

@@ -319,3 +319,20 @@ def test_two_who_go_on_with_a_sheet_at_once_do_not_both_get_it(
         ledger.lay("f" * 64, programs, **head, goes_on=place)
     monkeypatch.undo()
     assert ledger.successor(sheet) == first
+
+
+def test_a_stroke_that_goes_on_from_inside_it_is_in_doubt_until_it_is_confirmed(
+    ledger: Ledger,
+) -> None:
+    """Between the word and the next run, too: part of it is cut."""
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "bench")
+    run.advance(3, 2)
+    run.end(State.INTERRUPTED, "The cable was out.")
+    record = ledger.say(sheet, 0, Said(Word.GO_ON, 2, 5))
+    assert record.doubtful == (2,)
+    assert 2 not in record.left
+    again = ledger.claim(sheet, 0, "bench")
+    assert ledger.record(sheet, 0).doubtful == (2,)
+    again.advance(3, 3)
+    assert 2 in ledger.record(sheet, 0).certain
