@@ -193,7 +193,7 @@ class Desk:
         return self.submit(asked, who)
 
     def _give_up(self, sheet: str, who: str) -> None:
-        """Give up a sheet that its ended job has left between two programs: nobody goes on on it."""
+        """Give up a sheet that its ended job has left between two programs."""
         record = self.store.ledger.sheet(sheet)
         settled = {State.READY, State.DONE}
         if record.is_begun and record.is_open and {one.state for one in record.records} <= settled:

@@ -16,8 +16,12 @@ from foldmill_fabricate.jobs.errors import JobRefused
 def cancelled_at(shop: Workshop, setup: str) -> None:
     """Make the sheet until a set-up is due, and end the job there."""
     shop.start()
-    asked = lambda: [q for q in shop.at.questions() if q.setup == setup and q.kind is Kind.TOOL]  # noqa: E731
-    shop.attend(lambda: bool(asked()) or shop.is_ended)
+
+    def is_due() -> bool:
+        tools = [q for q in shop.at.questions() if q.kind is Kind.TOOL]
+        return shop.is_ended or any(q.setup == setup for q in tools)
+
+    shop.attend(is_due)
     shop.at.cancel(shop.job)
     shop.attend(lambda: shop.is_ended)
     shop.end()
