@@ -61,7 +61,17 @@ class Person:
         self._word = word
 
     def ready(self, request: Request) -> Answer | None:
-        """Print what the gate asks for, and ask until the answer can be."""
+        """Print what the gate asks for, and ask until the answer can be.
+
+        Raises CannotSend where a word was given for a program in doubt, and work begins with none.
+        """
+        if self._word is not None:
+            raise CannotSend(
+                f"Nothing was sent. Of sheet {request.sheet} nothing is in doubt before "
+                f"{request.setup.name}, so that {self._word} cannot be taken for it: all of that "
+                "would be cut from its beginning. Name the sheet that lies on the machine by "
+                "--sheet, and its face by --pass; or leave the word out."
+            )
         _tell("\n" + instructions.instruction(request))
         question, read = _QUESTIONS[request.gate]
 
@@ -91,12 +101,12 @@ class Person:
 
     def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
         """Tell what is certain and ask how it goes on; what was said beforehand is not asked."""
-        if self._word is not None:
-            word, self._word = self._word, None
-            return word
         _tell(f"{record.program.name} of sheet {record.sheet} ended early.")
         for sentence in (record.note, account(record), told):
             _tell(sentence) if sentence else None
+        if self._word is not None:
+            word, self._word = self._word, None
+            return word
         proved = said(record, found) if found else None
         if proved is not None:
             _tell(f"The machine stands where it can {proved}.")

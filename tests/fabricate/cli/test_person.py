@@ -9,6 +9,7 @@ import pytest
 from fabricate.bench import small_plan
 
 from foldmill_fabricate.cli.person import Person
+from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.gates import Answer, Request
 from foldmill_fabricate.instructions import instruction
 from foldmill_fabricate.operators import Verdict
@@ -121,6 +122,26 @@ def test_a_program_in_doubt_goes_on_where_a_person_says(
     assert told in said
     assert "a person must say it" in said
     assert Person().decide(in_doubt(), Start(4, 1), "") == Said(Word.GO_ON, 4, 1)
+
+
+def test_a_word_given_beforehand_is_taken_with_all_that_is_known_told(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    word = Said(Word.GO_ON, 5)
+    someone = Person(word)
+    assert someone.decide(in_doubt(), None, "Half an instruction may lie in the machine.") == word
+    said = capsys.readouterr().err
+    assert "It stopped." in said
+    assert "Half an instruction may lie in the machine." in said
+
+
+def test_a_word_for_what_is_not_in_doubt_begins_nothing(typed: list[str]) -> None:
+    someone, asked = Person(Said(Word.GO_ON, 5)), request(Gate.LOAD)
+    with pytest.raises(CannotSend, match="Of sheet K7QF nothing is in doubt"):
+        someone.ready(asked)
+    someone.decide(in_doubt(), None, "")
+    typed += [""]
+    assert someone.ready(asked) == Answer("K7QF")
 
 
 def test_a_test_cut_is_judged(typed: list[str]) -> None:

@@ -8,11 +8,15 @@ import pytest
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face
+from foldmill_fabricate.plotter.errors import PlotterError
+from foldmill_fabricate.plotter.link import open_port
+from foldmill_fabricate.plotter.sender import send
 from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 
 Make = Callable[..., Machine]
 Told = Callable[..., bytes]
+Plug = Callable[..., str]
 SQUARE = b"M100,100\x03D300,100,300,300\x03E-200,0\x03D100,100\x03"
 
 
@@ -79,3 +83,29 @@ def test_a_wrong_command_is_counted_and_moves_nothing(
     told(simulator, wrong)
     assert simulator.device.carriage.error == error
     assert simulator.device.carriage.at == (0, 0)
+
+
+def test_half_a_command_is_dropped_and_never_ended_as_a_line_to_elsewhere(
+    machine: Make, plugged: Plug, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulator = cutter(machine)
+    with open_port(plugged(simulator), simulator.machine) as port:
+        write = port.write
+
+        def half(data: bytes) -> int:
+            if not data.startswith(b"D4000"):
+                return int(write(data))
+            write(data[: len("D4000,4")])  # what was to be 4000,400 ends as 4000,4
+            port.clock.sleep(30)
+            raise OSError("the adapter is gone")
+
+        monkeypatch.setattr(port, "write", half)
+        with pytest.raises(PlotterError, match="told to drop what it has"):
+            send(b"J1\x03M100,100\x03D400,4000\x03D4000,400\x03M0,0\x03", port, simulator.machine)
+        port.clock.sleep(60)
+        simulator.advance()
+    assert bytes(simulator.device.traffic.received).endswith(b"D4000,4\x1b\x04")
+    assert [one.points for one in simulator.sheet.strokes[Face.FRONT]] == [
+        ((100, 100), (400, 4000))
+    ]
+    assert not simulator.device.carriage.down

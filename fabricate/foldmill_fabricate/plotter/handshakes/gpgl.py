@@ -53,8 +53,8 @@ class GpglSession(Session):
         self._answers.append(line.decode("latin-1").strip())
 
     def abort(self, unsent: int | None) -> str:  # noqa: ARG002
-        """Have it start anew."""
-        self.port.write(b"\x03" + _ANEW if not self.whole else _ANEW)
+        """Have it start anew, which drops half a command; ETX would end it as a line elsewhere."""
+        self.port.write(_ANEW)
         return "The machine was told to drop what it has and to lift its tool."
 
 
