@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 import typer
@@ -83,12 +84,16 @@ class Person:
         return _asked(question, judged)
 
     def wants_test_cut(self, request: Request) -> bool:
-        """Offer one."""
+        """Offer one; raises CannotSend where the person stops: without it the part comes next."""
         _tell(f"\nThe preset {request.plan.material.title} is untested.")
-        answer = _ask(
-            f"y for a test cut of 20 mm in the waste for {request.setup.name} (Enter: none)"
+        wanted = _asked(
+            f"y for a test cut of 20 mm in the waste for {request.setup.name} (Enter: none; "
+            "q: stop)",
+            partial(_one_of, {"": False, "n": False, "no": False, "y": True, "yes": True}),
         )
-        return answer.lower().startswith("y")
+        if wanted is None:
+            raise CannotSend(f"Stopped before {request.setup.name}, as the operator said.")
+        return wanted
 
     def judge(self, request: Request) -> Verdict:
         """Ask what it looks like."""
@@ -97,7 +102,7 @@ class Person:
         answer = _ask(
             "Enter if it is good, a once the tool is set anew, to cut another (q: stop)"
         ).lower()
-        return {"": Verdict.GOOD, "a": Verdict.AGAIN}.get(answer[:1], Verdict.STOP)
+        return {"": Verdict.GOOD, "a": Verdict.AGAIN}.get(answer, Verdict.STOP)
 
     def decide(self, record: Record, found: Start | None, told: str) -> Said | None:
         """Tell what is certain and ask how it goes on; what was said beforehand is not asked."""
@@ -130,11 +135,17 @@ def _word(text: str, proved: Said | None, record: Record) -> Said | None:
     if not text and proved is None:
         raise FoldmillError("Nothing proves where the machine stands; a person must say it.")
     known = {"": proved, "f": Said(Word.FINISHED), "s": Said(Word.SPOILED)}
-    key = text.lower()[:1]
+    key = text.lower()  # no more than the letter: an id, or "stop", must not give a sheet up
     word = known[key] if key in known else _place(text)
     if word is not None:
         refuse(record, word)
     return word
+
+
+def _one_of(words: Mapping[str, T], text: str) -> T:
+    if text.lower() not in words:
+        raise FoldmillError("Type one of the letters that are named, or Enter.")
+    return words[text.lower()]
 
 
 def _pressed(text: str, request: Request) -> Answer:

@@ -4,27 +4,51 @@ from __future__ import annotations
 
 import hashlib
 import os
+import socket
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ipaddress import ip_address
 from pathlib import Path
 
 from filelock import FileLock, Timeout
 
 from foldmill_fabricate.plotter.errors import PortUnavailable
 
+_WRAPPED = frozenset({"spy", "alt"})
+"""Addresses of pyserial's that hold another."""
+_SERVED = frozenset({"socket", "rfc2217"})
+"""Ways to speak to a server's port; the machine behind it is one."""
+
 
 def device_of(url: str) -> str:
     """Return the name of the device behind a port's address: one name for all ways to write it.
 
-    Links such as ``/dev/serial/by-id/…`` are followed; options of an address do not count, nor
-    does the case of a host.
+    Links such as ``/dev/serial/by-id/…`` are followed, and names of hosts; a port that is listened
+    in at (``spy://``) is that port. Options of an address do not count, nor does the case of a
+    host, nor in which way a server's port is spoken to.
     """
-    if "://" in url:
-        scheme, _, rest = url.partition("://")
-        place = rest.split("?", 1)[0].rstrip("/")
-        return f"{scheme}://{place}".lower()
-    return os.path.realpath(url) if os.sep in url else url.upper()
+    scheme, apart, rest = url.partition("://")
+    if not apart:
+        return os.path.realpath(url) if os.sep in url else url.upper()
+    place = rest.split("?", 1)[0]
+    if scheme.lower() in _WRAPPED:
+        return device_of(place)
+    if scheme.lower() in _SERVED:
+        host, _, number = place.rstrip("/").rpartition(":")
+        return f"socket://{_address(host.lower().strip('[]'))}:{number}"
+    return f"{scheme}://{place.rstrip('/')}".lower()
+
+
+def _address(host: str) -> str:
+    """Return the one address of a host: this computer's by any name, others' as they resolve."""
+    try:
+        found = sorted({str(each[4][0]) for each in socket.getaddrinfo(host, None)})
+    except OSError:
+        return host  # opening it will say so
+    if any(ip_address(each.split("%")[0]).is_loopback for each in found):
+        return "localhost"
+    return found[0] if found else host
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import typer
 from fabricate.bench import small_plan
 
 from foldmill_fabricate.cli.person import Person
@@ -142,6 +143,34 @@ def test_a_word_for_what_is_not_in_doubt_begins_nothing(typed: list[str]) -> Non
     someone.decide(in_doubt(), None, "")
     typed += [""]
     assert someone.ready(asked) == Answer("K7QF")
+
+
+@pytest.mark.parametrize("word", ["SPQR", "F45T", "stop", "skip", "fine?"])
+def test_an_id_or_a_word_neither_gives_a_sheet_up_nor_finishes_it(
+    typed: list[str], word: str
+) -> None:
+    typed += [word, "q"]
+    assert Person().decide(in_doubt(), Start(4, 1), "") is None
+
+
+@pytest.mark.parametrize("stops", [["q"], ["what", "Q"], [None]])
+def test_who_stops_at_the_offer_of_a_test_cut_does_not_begin_the_part(
+    stops: list[str | None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def typing(*_: object, **__: object) -> str:
+        answer = stops.pop(0)
+        if answer is None:  # Ctrl-C, or the end of what is typed
+            raise typer.Abort
+        return answer
+
+    monkeypatch.setattr("typer.prompt", typing)
+    with pytest.raises(CannotSend, match="as the operator said"):
+        Person().wants_test_cut(request(Gate.TOOL))
+
+
+def test_only_a_itself_cuts_another_test_cut(typed: list[str]) -> None:
+    typed += ["abort"]
+    assert Person().judge(request(Gate.TOOL)) is Verdict.STOP
 
 
 def test_a_test_cut_is_judged(typed: list[str]) -> None:

@@ -32,6 +32,20 @@ def test_a_link_and_the_device_behind_it_are_one(port: str, tmp_path: Path) -> N
         pass
 
 
+@pytest.mark.parametrize(
+    "other",
+    ["socket://LOCALHOST:4001", "rfc2217://127.0.0.1:4001", "spy://socket://localhost:4001?file=x"],
+)
+def test_a_servers_port_is_one_device_however_it_is_reached(other: str) -> None:
+    assert device_of(other) == device_of("socket://127.0.0.1:4001/")
+    assert device_of(other) != device_of("socket://127.0.0.1:4002")
+    assert device_of(other) != device_of("socket://192.0.2.7:4001")
+
+
+def test_a_port_that_is_listened_in_at_is_that_port(port: str) -> None:
+    assert device_of(f"spy://{port}?file=/dev/null") == device_of(port)
+
+
 def test_a_lock_is_free_again_after_use_and_other_devices_are_free_all_the_time(port: str) -> None:
     with held(port), held(port + "1"):
         pass
