@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import ceil, hypot, radians, tan
+from math import ceil, hypot, isfinite, radians, tan
 from typing import Any
 
 import numpy as np
@@ -79,6 +79,8 @@ class Jogger:
 
     def refuse(self, to: XY) -> None:
         """Raise CannotSend, or DoesNotFit, for a place beyond the limits, carrier, mm."""
+        if not all(map(isfinite, to)):
+            raise CannotSend(f"({to[0]:g}, {to[1]:g}) mm is no place; nothing moved.")
         move(to, self.machine)  # raises where the firmware's own range ends
         over = self._beyond(to)
         if over > _SLACK:

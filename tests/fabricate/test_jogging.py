@@ -82,6 +82,17 @@ def test_no_step_leads_beyond_the_limits(dx: float, dy: float) -> None:
     bench.leave()
 
 
+@pytest.mark.parametrize("step", [("nan", "5"), ("0", "inf"), ("-inf", "nan")])
+def test_a_step_that_is_no_length_moves_nothing(bench: Bench, step: tuple[str, str]) -> None:
+    with link.open_port(bench.url, MACHINE) as port:
+        jogger = Jogger(port, MACHINE)
+        jogger.go((300.0, 400.0))
+        sent = len(bench.simulator.device.traffic.program)
+        with pytest.raises(CannotSend, match="is no place; nothing moved"):
+            jogger.by(float(step[0]), float(step[1]))
+        assert len(bench.simulator.device.traffic.program) == sent
+
+
 def test_a_machine_that_cannot_say_where_it_stands_is_not_jogged() -> None:
     plan = small_plan()
     serial = MACHINE.serial.model_copy(update={"answers": False, "handshake": "none"})

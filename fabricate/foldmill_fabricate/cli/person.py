@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from math import isnan
 from typing import TYPE_CHECKING, TypeVar
 
 import typer
@@ -41,6 +42,8 @@ def read_word(go_on: str, finished: bool, overlap: float) -> Said | None:
     """Read what was said of a program in doubt: STROKE or STROKE.VERTEX, strokes from 1 on."""
     if go_on and finished:
         raise FoldmillError("--go-on and --finished exclude each other.")
+    if isnan(overlap):
+        raise FoldmillError("--overlap says how many mm are cut again, from 0 to 20.")
     if finished:
         return Said(Word.FINISHED)
     if overlap and not go_on:

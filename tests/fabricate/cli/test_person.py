@@ -9,7 +9,8 @@ import pytest
 import typer
 from fabricate.bench import small_plan
 
-from foldmill_fabricate.cli.person import Person
+from foldmill import FoldmillError
+from foldmill_fabricate.cli.person import Person, read_word
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.gates import Answer, Request
 from foldmill_fabricate.instructions import instruction
@@ -134,6 +135,11 @@ def test_a_word_given_beforehand_is_taken_with_all_that_is_known_told(
     said = capsys.readouterr().err
     assert "It stopped." in said
     assert "Half an instruction may lie in the machine." in said
+
+
+def test_an_overlap_that_is_no_length_is_refused() -> None:
+    with pytest.raises(FoldmillError, match="from 0 to 20"):
+        read_word("12.3", finished=False, overlap=float("nan"))
 
 
 def test_a_word_for_what_is_not_in_doubt_begins_nothing(typed: list[str]) -> None:

@@ -111,6 +111,9 @@ EXPECTED = {
 """The end of every cell; it is the same at the three places."""
 LINE = frozenset({"noise", "framing", "overflow", "vertex dropped", "digit"})
 """Faults that change what the machine receives, so that it may see an instruction divided."""
+STRAYS = frozenset({"power, 3 s"})
+"""Faults after which a machine may draw a line from its origin: its power was away and came back
+while bytes were on their way, which only its next answer tells, and some machines never."""
 DROPPED = frozenset({"overflow", "vertex dropped"})
 """Faults that drop bytes at the machine, whatever its room."""
 _ERROR_ASKED = 1.05
