@@ -37,14 +37,16 @@ def open_port(url: str, machine: Machine) -> Any:
     """
     if not url.strip():
         raise PortUnavailable("Name a port, such as /dev/ttyUSB0, COM3 or socket://host:port.")
+    served = url.lower().startswith("rfc2217://")
+    opened = _served if served else serial.serial_for_url
     try:
-        return serial.serial_for_url(
+        return opened(
             url,
             baudrate=machine.serial.baud,
             xonxoff=machine.serial.handshake == "xon-xoff",
             rtscts=machine.serial.handshake == "rts-cts",
             timeout=_TIMEOUT,
-            write_timeout=None if url.startswith("rfc2217://") else _WRITE_PATIENCE,
+            write_timeout=None if served else _WRITE_PATIENCE,
             exclusive=True,
         )
     except serial.SerialException as error:
@@ -53,6 +55,23 @@ def open_port(url: str, machine: Machine) -> Any:
         raise PortUnavailable(_unknown(url, error)) from None
     except TypeError:  # pyserial's way of missing a part of an address
         raise PortUnavailable(f"{url} is no whole address: write socket://host:port.") from None
+
+
+def _served(url: str, **settings: Any) -> Any:
+    """Open a network serial port that does not ask a server to drop bytes which has gone.
+
+    pyserial's own waits three seconds for the answer, and as long nobody is told to stop the
+    machine by hand.
+    """
+    from serial import rfc2217
+
+    class Leaving(rfc2217.Serial):  # type: ignore[misc]
+        def reset_output_buffer(self) -> None:
+            thread = getattr(self, "_thread", None)
+            if thread is not None and thread.is_alive():
+                super().reset_output_buffer()
+
+    return Leaving(url, **settings)
 
 
 def clock_of(port: Any) -> Clock:

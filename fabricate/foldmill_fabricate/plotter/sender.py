@@ -20,7 +20,7 @@ from foldmill_fabricate.plotter.languages import longest, made_ready, spoken
 from foldmill_fabricate.plotter.link import clock_of
 from foldmill_fabricate.plotter.program import XY, Job
 from foldmill_fabricate.plotter.resume import Start
-from foldmill_fabricate.plotter.session import Session
+from foldmill_fabricate.plotter.session import BY_HAND, Session
 from foldmill_fabricate.plotter.wish import Wish
 
 FROM_THE_START = Start()
@@ -107,10 +107,11 @@ def send(
         )
     except KeyboardInterrupt:
         raise Stopped(f"Stopped. {session.stop()}") from None
+    except PlotterError as error:
+        raise type(error)(f"{error} {session.stop()}") from error
     except OSError as error:
-        kind = type(error) if isinstance(error, PlotterError) else PlotterError
-        words = str(error) if isinstance(error, PlotterError) else f"The port failed: {error}."
-        raise kind(f"{words} {session.stop()}") from error
+        session.stop()  # whether it arrives nobody knows: a closed connection takes bytes, too
+        raise PlotterError(f"The port failed: {error}. {BY_HAND}") from error
     except BaseException as error:
         error.add_note(session.stop())
         raise

@@ -100,7 +100,7 @@ def test_half_a_command_is_dropped_and_never_ended_as_a_line_to_elsewhere(
             raise OSError("the adapter is gone")
 
         monkeypatch.setattr(port, "write", half)
-        with pytest.raises(PlotterError, match="told to drop what it has"):
+        with pytest.raises(PlotterError, match="Stop the machine by hand"):
             send(b"J1\x03M100,100\x03D400,4000\x03D4000,400\x03M0,0\x03", port, simulator.machine)
         port.clock.sleep(60)
         simulator.advance()

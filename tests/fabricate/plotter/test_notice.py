@@ -17,6 +17,7 @@ from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Progress, send
 from foldmill_fabricate.plotter.simulator.faults import parse
 from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.simulator.rfc2217 import serve_rfc2217
 from foldmill_fabricate.plotter.simulator.servers import serve_pty, serve_tcp
 from foldmill_fabricate.plotter.wish import Wish
 
@@ -29,6 +30,7 @@ WITHIN = 2.0
 """s in which it must be noticed."""
 SHUT = pytest.mark.filterwarnings("ignore:.*socket:pytest.PytestUnraisableExceptionWarning")
 """pyserial leaves a socket to the garbage collector whose other end has gone."""
+DAEMON = pytest.mark.filterwarnings("ignore:set(Daemon|Name):DeprecationWarning")
 LATE = 0.8
 """s besides, for a machine with much else to do."""
 
@@ -43,14 +45,17 @@ def ended(port: Any, machine: Machine, seconds: float, happens: Callable[[], obj
         happens()
 
     Thread(target=later, daemon=True).start()
-    with pytest.raises(PlotterError):
-        send(LONG, port, machine)
+    with pytest.raises(PlotterError, match="Stop the machine by hand"):
+        send(LONG, port, machine)  # nothing that is told to it now is known to arrive
     return time.monotonic() - when[0]
 
 
 @SHUT
+@DAEMON
 @pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff", "enq-ack", "none"])
-@pytest.mark.parametrize("serve", [serve_pty, serve_tcp], ids=["pty", "tcp"])
+@pytest.mark.parametrize(
+    "serve", [serve_pty, serve_tcp, serve_rfc2217], ids=["pty", "tcp", "rfc2217"]
+)
 def test_a_cable_that_is_pulled_is_noticed_within_two_seconds(
     serve: Callable[..., Any], handshake: str, machine: Make
 ) -> None:
