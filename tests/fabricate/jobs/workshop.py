@@ -299,6 +299,8 @@ class Workshop:
         """Say where it goes on, as somebody who sees every line, inside a stroke too."""
         last = record.runs[-1]
         strokes = self.strokes(record)
+        if last.acked == last.sent < len(strokes):
+            return Reply()  # nothing has left since somebody spoke: as it was said then
         for k in range(last.acked, min(last.sent, len(strokes))):
             done, whole = self.is_cut(record, k), len(strokes[k][1]) - 1
             if done < whole:

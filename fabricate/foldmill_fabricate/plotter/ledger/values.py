@@ -131,7 +131,10 @@ class Record:
     @property
     def doubtful(self) -> tuple[int, ...]:
         """Strokes that may be cut, whole or in part."""
-        return tuple(sorted({*_strokes(run.doubtful for run in self.runs)} - {*self.certain}))
+        found = {*_strokes(run.doubtful for run in self.runs)}
+        if self.vertex:  # it goes on inside that one: a part of it is cut
+            found.add(self.first)
+        return tuple(sorted(found - {*self.certain}))
 
     @property
     def left(self) -> tuple[int, ...]:

@@ -241,3 +241,19 @@ def test_a_killed_process_leaves_every_stroke_it_wrote_down(tmp_path: Path, stro
     assert found.doubtful == tuple(range(max(0, strokes - 1), strokes))
     assert found.left == tuple(range(strokes, STROKES))
     ledger.close()
+
+
+def test_a_stroke_that_goes_on_from_inside_is_never_taken_for_one_that_nothing_is_cut_of(
+    ledger: Ledger,
+) -> None:
+    """The power fails once more, before a byte of its rest has left."""
+    sheet = lay(ledger).id
+    ledger.claim(sheet, 0, "dev").advance(3, 2)
+    ledger.recover(sheet, 0)
+    assert ledger.say(sheet, 0, Said(Word.GO_ON, 2, vertex=5)).doubtful == (2,)
+    ledger.claim(sheet, 0, "dev")
+    record = ledger.recover(sheet, 0)
+    assert record.doubtful == (2,)
+    assert record.left == tuple(range(3, STROKES))
+    with pytest.raises(LedgerRefused, match="10 strokes, the first of them number 3"):
+        ledger.say(sheet, 0, Said(Word.FINISHED))
