@@ -98,7 +98,10 @@ def test_a_job_is_ended_while_its_plan_is_proved(job_folder: Path) -> None:
 
 
 def test_a_plotter_that_is_named_wrongly_is_asked_about(desk: Desk, plan: str) -> None:
-    wrong = desk.plotters["bench"].model_copy(update={"port": "sim://bench?turbo=yes"})
+    machine = desk.plotters["bench"].machine
+    wrong = desk.plotters["bench"].model_copy(
+        update={"port": f"sim://bench?machine={machine}&turbo=yes"}
+    )
     desk.plotters = {"bench": wrong}
     job = desk.submit(Submission(plan=plan, plotter="bench")).id
     with at_work(desk):
