@@ -212,7 +212,7 @@ class _Work:
                     f"{record.note} {account(record)} It goes on only on a person's word."
                 )
             recovery.refuse(self.bench.job, self.part, word)
-            record = self.ledger.say(self.sheet, self.number, word)
+            record = self.ledger.say(self.sheet, self.number, word, word.who)
         if record.state is State.SPOILED:
             raise CannotSend(f"Sheet {self.sheet} is given up; begin a new one.")
         return record.state is not State.DONE

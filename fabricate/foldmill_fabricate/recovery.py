@@ -42,7 +42,8 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     """Ask the machine where it stands, and find that in what is in doubt of a program."""
     last = record.runs[-1]
     if last.sent == last.acked:
-        return Place(Start(last.acked))  # nothing is in doubt
+        inside = last.vertex if last.acked == last.first else 0  # what was cut of it before
+        return Place(Start(last.acked, inside))  # nothing is in doubt
     machine = job.plan.machine
     program = program_of(job, part)
     where = _where(program, record, machine)

@@ -12,7 +12,7 @@ from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.jobs import JobRecord, Jobs, Question
+    from foldmill_fabricate.jobs import JobRecord, Jobs, Question, Submission
 
 jobs = typer.Typer(
     name="job", no_args_is_help=True, help="Jobs that wait for a plotter, and survive a crash."
@@ -23,6 +23,7 @@ More = Annotated[
     list[str] | None,
     typer.Option("--plotter", help="A plotter beside those of plotters.toml: NAME=PORT@MACHINE."),
 ]
+_IDLE = "nobody works on jobs now"
 Who = Annotated[str, typer.Option(help="Who says so; default: whoever is at the computer.")]
 
 
@@ -54,7 +55,6 @@ def submit(
 ) -> None:
     """Put a job in the queue of a plotter: a planned folder, or a design to be planned."""
     from foldmill_fabricate.cli.ordering import ordered
-    from foldmill_fabricate.jobs import Submission
 
     desk, works = _desk(plotter)
     folder = Path(what)
@@ -62,13 +62,13 @@ def submit(
     if (folder / "plan.json").is_file():
         if preset or param or option:
             raise FoldmillError("--preset, --param and --option are of a design, not of a folder.")
-        asked = Submission(plan=desk.keep(folder), **head)
+        asked = _submission(plan=desk.keep(folder), **head)
     elif folder.exists():
         raise FoldmillError(f"{what} is no job folder: plan it first, or name a family.")
     else:
         machine = desk.machine_of(on)
         order = ordered(what, preset, param or [], material, machine, option or [])
-        asked = Submission(design=order, **head)
+        asked = _submission(design=order, **head)
     job = desk.submit(asked, who)
     say(as_json, job.model_dump(mode="json"), _line(job))
     if not works and not as_json:
@@ -85,8 +85,11 @@ def list_jobs(
     as_json: AsJson = False,
 ) -> None:
     """List jobs, the newest first, and what people are asked."""
+    from foldmill_fabricate.jobs.states import ENDED, JobState
+
     desk, _ = _desk(None)
-    found = [job for job in desk.jobs(plotter=on) if every or not job.is_ended]
+    states = () if every else [state for state in JobState if state not in ENDED]
+    found = desk.jobs(states, on)
     asked = desk.questions()
     rows = [job.model_dump(mode="json") for job in found]
     lines = [_line(job) + _asked(job, asked) for job in found]
@@ -169,8 +172,9 @@ def answer(
         )
     except ValidationError as error:
         raise FoldmillError(explain(error)) from None
-    _desk(None)[0].answer(question, reply, who)
-    typer.echo("Answered.")
+    desk, works = _desk(None)
+    desk.answer(question, reply, who)
+    typer.echo("Answered." if works else f"Answered; {_IDLE}, and it is asked anew then.")
 
 
 @jobs.command()
@@ -245,6 +249,19 @@ def _desk(more: list[str] | None) -> tuple[Jobs, bool]:
     from foldmill_fabricate.cli.working import desk
 
     return desk(more or [])
+
+
+def _submission(**given: Any) -> Submission:
+    """Return what is submitted; raises FoldmillError with the sentence."""
+    from pydantic import ValidationError
+
+    from foldmill.refusals import explain
+    from foldmill_fabricate.jobs import Submission
+
+    try:
+        return Submission(**given)
+    except ValidationError as error:
+        raise FoldmillError(explain(error)) from None
 
 
 def _told(job: JobRecord, as_json: bool) -> None:

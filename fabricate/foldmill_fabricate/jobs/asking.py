@@ -81,6 +81,19 @@ def answer(at: Connection, name: str, reply: Reply, who: str) -> bool:
     return bool(at.execute(update(QUESTIONS).where(same).values(**values)).rowcount == 1)
 
 
+def told(question: Question, reply: Reply) -> str:
+    """Return what was answered, for the history."""
+    if not reply.ok:
+        return "no"
+    given = reply.model_dump(exclude_defaults=True, exclude={"marks"})
+    if reply.marks:
+        given["marks"] = len(reply.marks)
+    if question.kind is Kind.DECIDE and not reply.word:
+        given["word"] = "where the machine stands"
+    words = ", ".join(str(given[n]) if n == "word" else f"{n} {given[n]}" for n in given)
+    return words or "yes"
+
+
 def reply(at: Connection, name: str) -> tuple[Reply, str] | None:
     """Return an answer and who gave it; None while there is none."""
     row = at.execute(select(QUESTIONS).where(QUESTIONS.c.id == name)).one()

@@ -143,8 +143,8 @@ class Desk:
     def answer(self, question: str, reply: Reply, who: str = "") -> None:
         """Answer a question, once; what cannot be is refused with its sentence."""
         asked = self.store.question(question)
-        plan = self.plans.plan(self.store.job(asked.job).plan)
-        judge(asked, reply, plan, self.store.ledger)
+        job = self.store.job(asked.job)
+        judge(asked, reply, lambda: self.plans.plan(job.plan), self.store.ledger)
         self.store.answer(question, reply, who)
 
     def pause(self, name: str, who: str = "") -> JobRecord:

@@ -30,6 +30,8 @@ _LOOK = 0.5
 """s between two looks for jobs that were submitted."""
 _POLL = 0.25
 """s between two looks of a queue for its next turn."""
+_OLD = 50
+"""Turns that have ended and are kept, at most."""
 _PENDING = ["ENQUEUED", "PENDING", "DELAYED"]
 PLANNING = "planning"
 """The queue of designs that are to be planned: none of them has a machine."""
@@ -114,6 +116,7 @@ class Engine:
             self._wake.clear()
             try:
                 self._give_turns(self._due())
+                self._forget_turns()
             except Exception:  # a database that is away for a moment must not end the service
                 _LOG.exception("no turns could be given")
             self._wake.wait(_LOOK)
@@ -124,6 +127,18 @@ class Engine:
             if count > 0:
                 for _ in range(count - self._given(name)):
                     DBOS.enqueue_workflow(name, _turn, name)
+
+    def _forget_turns(self) -> None:
+        """Keep nothing of turns that have ended: what they did stands in the store."""
+        ended = DBOS.list_workflows(
+            queue_name=list(self._queues),
+            status=["SUCCESS", "ERROR"],
+            limit=_OLD,
+            load_input=False,
+            load_output=False,
+        )
+        if len(ended) == _OLD:
+            DBOS.delete_workflows([one.workflow_id for one in ended])
 
     def _given(self, name: str) -> int:
         found: Iterable[Any] = DBOS.list_workflows(

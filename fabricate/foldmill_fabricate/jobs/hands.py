@@ -36,17 +36,16 @@ class Hands:
         self, store: JobStore, job: str, token: int, leaving: Event, url: str = ""
     ) -> None:
         self._store, self._job, self._token, self._leaving = store, job, token, leaving
-        simulated = url.startswith("sim://")
-        self._simulated = SimulatedOperator(url) if simulated else None
+        self._simulated = url if url.startswith("sim://") else ""
 
-    def ready(self, request: Request) -> Answer | None:
+    def ready(self, request: Request) -> Answer:
         """Ask for what a gate asks for."""
         text = instructions.instruction(_undrawn(request))
         data = {"thickness": request.thickness, "fitted": request.fitted}
         reply, who = self.ask(Kind(request.gate.value), text, request, data=data)
         self._go_on(reply)
-        if self._simulated is not None:  # no hand reaches that sheet
-            self._simulated.ready(request)
+        if self._simulated:  # no hand reaches that sheet
+            SimulatedOperator(self._simulated).ready(request)
         return as_answer(reply, who)
 
     def wants_test_cut(self, request: Request) -> bool:
@@ -76,9 +75,10 @@ class Hands:
         place = {"stroke": proved.stroke + 1, "vertex": proved.vertex} if proved else {}
         data = {"proved": proved.word.value, **place} if proved else {}
         text = "\n".join(line for line in lines if line)
-        reply, _ = self.ask(Kind.DECIDE, text, record=record, data=data)
+        reply, who = self.ask(Kind.DECIDE, text, record=record, data=data)
         self._go_on(reply)
-        return as_word(reply, proved)
+        word = as_word(reply, proved)
+        return replace(word, who=who) if word else None
 
     def has_finished(self, record: Record) -> bool:
         """Ask: the machine cannot say."""

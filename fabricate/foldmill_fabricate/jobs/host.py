@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import socket
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,7 +12,7 @@ from filelock import FileLock, Timeout
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
-from foldmill_fabricate.jobs.errors import JobRefused, Leave
+from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
 from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
@@ -25,6 +24,10 @@ from foldmill_fabricate.jobs.work import Shop, Tell, work
 from foldmill_fabricate.plotter.errors import Fenced
 
 _LOG = logging.getLogger(__name__)
+_HERE = "this-computer"
+"""What the engine knows it by where only this one uses the files: a host's own name may change."""
+_BREATH = 2.0
+"""s before a turn is given again that nothing could be done in."""
 
 
 class Host:
@@ -54,9 +57,7 @@ class Host:
             self._leaving = Event()
             self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
             self._tokens: dict[str, int] = {}
-            self._engine = Engine(
-                places.engine, name or socket.gethostname(), self._queues(), self._due
-            )
+            self._engine = Engine(places.engine, name or _HERE, self._queues(), self._due)
         except BaseException:
             self._lock.release()
             raise
@@ -83,6 +84,8 @@ class Host:
         return {PLANNING: (self._take_order, self._plan), **made}
 
     def _due(self) -> dict[str, int]:
+        for name in self.store.abandoned(self.plotters):
+            self.store.end_abandoned(name)
         due = {f"plotter-{name}": count for name, count in self.store.due().items()}
         return due | {PLANNING: len(self.store.jobs([JobState.PLANNING]))}
 
@@ -106,6 +109,9 @@ class Host:
             work(self._shop, self.store.job(name), token, plotter)
         except (Leave, Fenced) as error:
             _LOG.warning("job %s: %s", name, error)
+        except Exception:  # such as a database that is away: the job is due, and has a turn again
+            _LOG.exception("job %s", name)
+            self._leaving.wait(_BREATH)
 
     def _take_order(self, queue: str) -> str:  # noqa: ARG002
         waiting = self.store.jobs([JobState.PLANNING])
@@ -120,14 +126,18 @@ class Host:
         with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
             folder = Path(place) / "job"
             try:
-                carry_out_elsewhere(order, folder, self._leaving)
+                carry_out_elsewhere(order, folder, self._leaving, lambda: self._heed_order(name))
                 plan = self.plans.keep(folder)
-            except Leave:
+            except (Leave, Cancelled):
                 return
-            except FoldmillError as error:
+            except (FoldmillError, OSError) as error:
                 self.store.refused(name, str(error))
                 return
         self.store.planned(name, plan, self.plans.about(plan))
+
+    def _heed_order(self, name: str) -> None:
+        if self.store.job(name).state is not JobState.PLANNING:
+            raise Cancelled("Ended by a person.")
 
 
 def _locked(places: Places) -> FileLock:

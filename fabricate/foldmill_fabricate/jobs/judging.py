@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from foldmill_fabricate import gates
 from foldmill_fabricate.gates import Request
 from foldmill_fabricate.jobs.errors import JobRefused
@@ -14,15 +16,15 @@ from foldmill_fabricate.plotter.ledger.words import refuse
 _GATES = frozenset(gate.value for gate in Gate)
 
 
-def judge(question: Question, reply: Reply, plan: Plan, ledger: Ledger) -> None:
+def judge(question: Question, reply: Reply, plan: Callable[[], Plan], ledger: Ledger) -> None:
     """Raise CannotSend, LedgerRefused or JobRefused for an answer that cannot be.
 
-    To end the job may always be said.
+    plan : reads the job's plan; only a gate needs it. To end the job may always be said.
     """
     if not reply.ok:
         return
     if question.kind.value in _GATES:
-        gates.check(_request(question, plan), as_answer(reply, ""))
+        gates.check(_request(question, plan()), as_answer(reply, ""))
     elif question.kind is Kind.JUDGE and not reply.verdict:
         raise JobRefused("Say what the test cut looks like: good, again or stop.")
     elif question.kind is Kind.DECIDE:

@@ -9,6 +9,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from threading import Event
 from typing import Any, Literal
@@ -83,8 +84,13 @@ def carry_out(order: Order, folder: Path) -> None:
     folders.write(fold, plan, folder, ["svg", "dxf", machine.language])
 
 
-def carry_out_elsewhere(order: Order, folder: Path, leaving: Event) -> None:
-    """Have another process design and plan; raises CannotPlan with its sentence, or Leave."""
+def carry_out_elsewhere(
+    order: Order, folder: Path, leaving: Event, heed: Callable[[], None] = lambda: None
+) -> None:
+    """Have another process design and plan; raises CannotPlan with its sentence, or Leave.
+
+    heed : called again and again meanwhile; what it raises ends the planning.
+    """
     command = [sys.executable, "-m", "foldmill_fabricate.jobs.ordering", str(folder)]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL) as child:
@@ -95,6 +101,7 @@ def carry_out_elsewhere(order: Order, folder: Path, leaving: Event) -> None:
             while child.poll() is None:
                 if leaving.wait(_LOOK):
                     raise Leave("The service ends.")
+                heed()
         except BaseException:
             child.kill()
             raise

@@ -51,7 +51,8 @@ class Places:
 
     def new_transcript(self, job: str, sheet: str) -> Path:
         """Return the file for what goes over the wire next."""
-        number = 1 + len(self.transcripts(job, sheet))
+        before = [int(path.stem.rpartition("-")[2]) for path in self.transcripts(job, sheet)]
+        number = 1 + max(before, default=0)
         path = self.root / "transcripts" / f"{job}-{sheet}-{number:03}.jsonl"
         path.parent.mkdir(parents=True, exist_ok=True)
         return path

@@ -10,6 +10,8 @@ import json
 import os
 import subprocess
 import sys
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from foldmill.errors import FoldmillError
@@ -17,26 +19,45 @@ from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.sending import prove
 from foldmill_fabricate.verify import JobFiles, read_folder
 
+_LOOK = 0.2
+"""s between two looks at what is wanted meanwhile."""
 _PATIENCE = 3600.0
 """s after which a proof is given up."""
 
 
-def prove_elsewhere(path: Path, files: JobFiles) -> None:
-    """Have another process prove a folder; raises CannotSend where it must not be sent."""
+def prove_elsewhere(path: Path, files: JobFiles, heed: Callable[[], None]) -> None:
+    """Have another process prove a folder; raises CannotSend where it must not be sent.
+
+    heed : called again and again meanwhile; what it raises ends the proof.
+    """
     command = [sys.executable, "-m", "foldmill_fabricate.jobs.proving", str(path)]
+    out, errors = _done(command, path, heed)
     try:
-        done = subprocess.run(command, capture_output=True, timeout=_PATIENCE, check=False)
-    except subprocess.TimeoutExpired:
-        raise CannotSend(f"{path} is not sent: proving it took more than an hour.") from None
-    try:
-        told = json.loads(done.stdout)
+        told = json.loads(out)
     except ValueError:
-        why = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or ["no reason given"]
+        why = errors.decode(errors="replace").strip().splitlines()[-1:] or ["no reason given"]
         raise CannotSend(f"{path} is not sent, for proving it failed: {why[0]}") from None
     if told["refused"]:
         raise CannotSend(told["refused"])
     if told["digest"] != digest(files):
         raise CannotSend(f"{path} is not sent, for it was changed while it was proved.")
+
+
+def _done(command: Sequence[str], path: Path, heed: Callable[[], None]) -> tuple[bytes, bytes]:
+    """Return what a process has said, once it has ended; it never outlives its proof."""
+    pipe, end = subprocess.PIPE, time.monotonic() + _PATIENCE
+    with subprocess.Popen(command, stdout=pipe, stderr=pipe) as child:
+        try:
+            while time.monotonic() < end:
+                heed()
+                try:
+                    return child.communicate(timeout=_LOOK)
+                except subprocess.TimeoutExpired:
+                    continue
+            raise CannotSend(f"{path} is not sent: proving it took more than an hour.")
+        except BaseException:
+            child.kill()
+            raise
 
 
 def digest(files: JobFiles) -> str:

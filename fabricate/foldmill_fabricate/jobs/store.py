@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,14 @@ from foldmill_fabricate.jobs import asking, rows
 from foldmill_fabricate.jobs.errors import Clash, JobRefused
 from foldmill_fabricate.jobs.states import ACTIVE, FOLLOWS, JobState
 from foldmill_fabricate.jobs.tables import EVENTS, JOB_SHEETS, JOBS, METADATA
-from foldmill_fabricate.jobs.values import Event, JobRecord, Question, Reply, Submission
+from foldmill_fabricate.jobs.values import (
+    MOST_URGENT,
+    Event,
+    JobRecord,
+    Question,
+    Reply,
+    Submission,
+)
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
@@ -168,7 +175,7 @@ class JobStore:
         with self._engine.begin() as at:
             row = rows.job_row(at, name, lock=True)
             paused = row.state == JobState.PAUSED.value
-            if not paused and row.wish != PAUSE:
+            if (not paused and row.wish != PAUSE) or row.wish == CANCEL:
                 raise JobRefused(rows.cannot(row, "be resumed"))
             if row.wish == PAUSE:
                 at.execute(update(JOBS).where(JOBS.c.id == row.id).values(wish=""))
@@ -180,6 +187,8 @@ class JobStore:
 
     def prioritise(self, name: str, priority: int, who: str = "") -> JobRecord:
         """Change a job's place among those that wait for the same plotter."""
+        if abs(priority) > MOST_URGENT:
+            raise JobRefused(f"A priority lies between -{MOST_URGENT} and {MOST_URGENT}.")
         with self._engine.begin() as at:
             row = rows.job_row(at, name, lock=True)
             state = JobState(row.state)
@@ -220,6 +229,7 @@ class JobStore:
             if row.token != token:
                 raise Fenced(f"Job {name} was taken over by another process; this one stops.")
             if row.state != to.value:
+                row = self._unpaused(at, row, to)
                 self._set(at, row, to, note or to.value, rows.WORKER, note=note)
 
     def begin_sheet(self, name: str, token: int, sheet: str) -> int:
@@ -238,6 +248,23 @@ class JobStore:
         with reading(self._engine) as at:
             return str(at.execute(select(JOBS.c.wish).where(JOBS.c.id == name)).scalar_one())
 
+    def abandoned(self, plotters: Collection[str]) -> list[str]:
+        """Return the jobs a person wants to end, begun on a plotter that is none of these."""
+        active = JOBS.c.state.in_([state.value for state in ACTIVE])
+        gone = JOBS.c.plotter.not_in(list(plotters))
+        wanted = select(JOBS.c.id).where(active, gone, JOBS.c.begun, JOBS.c.wish == CANCEL)
+        with reading(self._engine) as at:
+            return list(at.execute(wanted).scalars())
+
+    def end_abandoned(self, name: str) -> None:
+        """End a job that a person wants to end, and whose plotter is no longer there."""
+        with self._engine.begin() as at:
+            row = rows.job_row(at, name, lock=True)
+            if row.wish == CANCEL and JobState(row.state) in ACTIVE:
+                at.execute(update(JOBS).where(JOBS.c.id == row.id).values(token=row.token + 1))
+                why = f"A person ended it; its plotter {row.plotter} is no longer there."
+                self._set(at, row, JobState.CANCELLED, why, rows.WORKER, why)
+
     # ── questions ────────────────────────────────────────────────────────────────────────────────
 
     def ask(self, token: int, question: asking.Asked) -> Question:
@@ -249,6 +276,7 @@ class JobStore:
             asking.withdraw(at, row.id)
             made = asking.put(at, question, stamp(self._now()))
             waits = question.waits_as
+            row = self._unpaused(at, row, waits)
             self._set(at, row, waits, f"asks: {question.kind.value}", rows.WORKER, question.why)
         return made
 
@@ -269,7 +297,8 @@ class JobStore:
             if not asking.answer(at, name, reply, who or rows.person()):
                 raise Clash("Somebody has answered this meanwhile; look at the job again.")
             row = rows.job_row(at, question.job)
-            self._note(at, row.id, f"answered: {question.kind.value}", JobState(row.state), who)
+            what = f"answered: {question.kind.value}: {asking.told(question, reply)}"
+            self._note(at, row.id, what, JobState(row.state), who)
 
     def reply(self, name: str) -> tuple[Reply, str] | None:
         """Return the answer to a question and who gave it; None while there is none."""
@@ -294,6 +323,17 @@ class JobStore:
                 if values:
                     at.execute(update(JOBS).where(JOBS.c.id == row.id).values(**values))
                 self._set(at, row, to, what, rows.WORKER, note)
+
+    def _unpaused(self, at: Connection, row: Any, to: JobState) -> Any:
+        """Lead a paused job over running to where its holder brings it.
+
+        A pause is heard beside the work, at any moment: it must stop none of its steps.
+        """
+        paused = row.state == JobState.PAUSED.value
+        if not paused or to in FOLLOWS[JobState.PAUSED]:
+            return row
+        self._set(at, row, JobState.RUNNING, JobState.RUNNING.value, rows.WORKER)
+        return rows.job_row(at, row.id)
 
     def _set(
         self, at: Connection, row: Any, to: JobState, what: str, who: str, note: str = ""

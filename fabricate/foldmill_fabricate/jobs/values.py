@@ -9,6 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from foldmill_fabricate.jobs.states import ENDED, JobState
 
+MOST_URGENT = 1000
+"""The highest priority; the lowest is its negative."""
+
 
 class _Value(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
@@ -38,7 +41,7 @@ class Submission(_Value):
     plotter: str = Field(max_length=100)
     copies: int = Field(default=1, ge=1, le=1000)
     """how many sheets of it"""
-    priority: int = Field(default=0, ge=-1000, le=1000)
+    priority: int = Field(default=0, ge=-MOST_URGENT, le=MOST_URGENT)
     """jobs of higher priority are made first, those of the same one in the order they came"""
     key: str = Field(default="", max_length=200)
     """idempotency key: the same one again gives the job that is there"""

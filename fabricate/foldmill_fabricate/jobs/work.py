@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass, field
+from functools import partial
 from threading import Event, Thread
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate.choosing import NEW, choose_sheet
 from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.gates import Request
 from foldmill_fabricate.jobs.errors import Cancelled, GivenUp, JobRefused, Leave
 from foldmill_fabricate.jobs.hands import LOOK, Hands
 from foldmill_fabricate.jobs.places import Places
@@ -22,7 +24,7 @@ from foldmill_fabricate.jobs.proving import prove_elsewhere
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
-from foldmill_fabricate.passes import Face, ProgramFile
+from foldmill_fabricate.passes import Face, Gate, ProgramFile
 from foldmill_fabricate.plotter.errors import Fenced
 from foldmill_fabricate.plotter.ledger import SheetRecord, State
 from foldmill_fabricate.plotter.sender import Progress
@@ -146,7 +148,8 @@ class _Work:
             except (Cancelled, GivenUp, Leave, Fenced):
                 raise
             except FoldmillError as error:
-                self._trouble(str(error), sheet)
+                if not self._is_given_up(sheet):
+                    self._trouble(str(error), sheet)
             except Exception as error:  # a job asks rather than ends, whatever it is
                 _LOG.exception("job %s", self.job.id)
                 self._trouble(f"Something unforeseen went wrong: {error!r}.", sheet)
@@ -155,7 +158,8 @@ class _Work:
         """Prove the plan, once: what was proved is held here, and is what is sent."""
         if self.opened is None:
             folder = self.shop.plans.folder(self.job.plan)
-            self.opened = open_job(folder, prover=prove_elsewhere)
+            prover = partial(prove_elsewhere, heed=self.hands.heed)
+            self.opened = open_job(folder, prover=prover)
         return self.opened
 
     def _lay(self, opened: Job) -> str:
@@ -192,11 +196,25 @@ class _Work:
     def _is_made(self, record: SheetRecord) -> bool:
         """Tell whether a sheet that is closed was made; ask for another where it was given up."""
         if all(one.state is not State.SPOILED for one in record.records):
+            self._have_removed(record.id)
             return True
         text = f"Sheet {record.id} was given up. Is another one made in its place?"
         if record.id in self.job.sheets[:-1] or self._asked(Kind.ANOTHER, text, record.id):
             return False
         raise GivenUp(f"Sheet {record.id} was given up.")
+
+    def _is_given_up(self, sheet: str) -> bool:
+        records = self.ledger.sheet(sheet).records if sheet else ()
+        return any(one.state is State.SPOILED for one in records)
+
+    def _have_removed(self, sheet: str) -> None:
+        """Have a sheet taken off that was made just before a crash, and nobody has spoken of."""
+        if all(one.gate != Gate.REMOVE.value for one in self.ledger.answers(sheet)):
+            plan = self._open().plan
+            last = plan.passes[-1]
+            request = Request(Gate.REMOVE, last.face, last.setups[-1], plan, sheet)
+            answer = self.hands.ready(request)
+            self.ledger.answer(sheet, None, Gate.REMOVE, answer.told, answer.who)
 
     def _asked(self, kind: Kind, text: str, sheet: str) -> bool:
         return self.hands.ask(kind, text, sheet=sheet)[0].ok

@@ -28,7 +28,9 @@ def job_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def desk(tmp_path: Path) -> Iterator[Desk]:
     """The verbs, on two plotters that nobody works on."""
     names = ("bench", "other")
-    plotters = {n: Plotter(name=n, port=f"sim://{MACHINE}?n={n}", machine=MACHINE) for n in names}
+    plotters = {
+        n: Plotter(name=n, port=f"sim://{n}?machine={MACHINE}", machine=MACHINE) for n in names
+    }
     made = Desk(Places(tmp_path / "state", ""), plotters)
     yield made
     made.store.close()

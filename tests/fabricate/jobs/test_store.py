@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -165,7 +167,9 @@ def test_events_tell_every_change_in_order(desk: Desk, plan: str) -> None:
     assert desk.store.events(after=heard[1].number) == heard[2:]
 
 
-_VERBS = st.lists(st.sampled_from(["pause", "resume", "cancel", "take", "done", "ask"]), max_size=9)
+_VERBS = st.lists(
+    st.sampled_from(["pause", "resume", "cancel", "take", "rest", "done", "ask"]), max_size=9
+)
 
 
 @given(_VERBS)
@@ -184,6 +188,8 @@ def test_whatever_is_said_in_any_order_a_state_follows_by_the_table(
             if verb == "take":
                 taken = desk.store.take("bench")
                 token = taken[1] if taken and taken[0].id == name else token
+            elif verb == "rest":
+                desk.store.move(name, token, JobState.PAUSED)
             elif verb == "done":
                 desk.store.move(name, token, JobState.DONE)
             elif verb == "ask":
@@ -192,9 +198,8 @@ def test_whatever_is_said_in_any_order_a_state_follows_by_the_table(
                 getattr(desk, verb)(name)
         except (JobRefused, Fenced):
             assert desk.job(name).state is before
-        after = desk.job(name).state
-        taken_up = verb == "take" and after is JobState.RUNNING
-        assert after is before or after in FOLLOWS[before] or taken_up
+    for one, other in pairwise(desk.store.events(job=name)):
+        assert other.state is one.state or other.state in FOLLOWS[one.state]
     if not desk.job(name).is_ended:
         desk.cancel(name)
         _end(desk, name)
@@ -205,3 +210,64 @@ def _end(desk: Desk, name: str) -> None:
     if not desk.job(name).is_ended:
         _, token = desk.store.take("bench") or pytest.fail("nothing is due")
         desk.store.move(name, token, JobState.CANCELLED)
+
+
+def test_a_pause_that_is_heard_between_two_steps_of_the_work_stops_none_of_them(
+    desk: Desk, plan: str
+) -> None:
+    name = submitted(desk, plan)
+    _, token = desk.store.take("bench") or pytest.fail("nothing is due")
+    desk.store.move(name, token, JobState.PAUSED)
+    asked = desk.store.ask(token, Asked(name, Kind.FINISHED, "Is it?"))
+    assert desk.job(name).state is JobState.WAITING
+    desk.answer(asked.id, Reply())
+    desk.store.move(name, token, JobState.RUNNING)
+    desk.store.move(name, token, JobState.PAUSED)
+    desk.store.move(name, token, JobState.DONE)
+    assert desk.job(name).is_ended
+
+
+def test_a_pause_is_not_taken_back_from_a_job_that_is_to_be_ended(desk: Desk, plan: str) -> None:
+    name = submitted(desk, plan)
+    _, token = desk.store.take("bench") or pytest.fail("nothing is due")
+    desk.store.move(name, token, JobState.PAUSED)
+    desk.cancel(name)
+    with pytest.raises(JobRefused, match="cannot be resumed"):
+        desk.resume(name)
+
+
+@pytest.mark.parametrize("wanted", [1001, -1001, 10**30])
+def test_a_priority_has_its_limits_whoever_gives_it(desk: Desk, plan: str, wanted: int) -> None:
+    name = submitted(desk, plan)
+    with pytest.raises(JobRefused, match="between -1000 and 1000"):
+        desk.prioritise(name, wanted)
+
+
+def test_a_job_whose_plan_is_gone_can_still_be_answered(desk: Desk, plan: str) -> None:
+    name = submitted(desk, plan)
+    _, token = desk.store.take("bench") or pytest.fail("nothing is due")
+    shutil.rmtree(desk.plans.folder(plan))
+    asked = desk.store.ask(token, Asked(name, Kind.TROUBLE, "There is no plan here."))
+    desk.answer(asked.id, Reply(ok=False), "Ada")
+    told = desk.history(name)[-1]
+    assert (told.who, told.what) == ("Ada", "answered: trouble: no")
+
+
+def test_the_history_says_what_was_answered(desk: Desk, plan: str) -> None:
+    name = submitted(desk, plan)
+    _, token = desk.store.take("bench") or pytest.fail("nothing is due")
+    said = Reply(word="go on", stroke=3, vertex=2)
+    desk.store.answer(desk.store.ask(token, Asked(name, Kind.DECIDE, "?")).id, said)
+    assert desk.history(name)[-1].what == "answered: decide: go on, stroke 3, vertex 2"
+
+
+def test_a_job_whose_plotter_is_gone_ends_when_a_person_says_so(desk: Desk, plan: str) -> None:
+    name = submitted(desk, plan)
+    desk.store.take("bench")
+    assert desk.store.abandoned(["other"]) == []
+    desk.cancel(name)
+    assert desk.store.abandoned(["bench", "other"]) == []
+    assert desk.store.abandoned(["other"]) == [name]
+    desk.store.end_abandoned(name)
+    assert desk.job(name).state is JobState.CANCELLED
+    assert "bench is no longer there" in desk.job(name).note

@@ -31,7 +31,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.clock import RealClock
-from foldmill_fabricate.plotter.ledger import Record
+from foldmill_fabricate.plotter.ledger import Entry, Record
 from foldmill_fabricate.plotter.simulator import faults
 from foldmill_fabricate.plotter.simulator.devices import adjusted
 from foldmill_fabricate.plotter.simulator.machine import Simulator
@@ -299,6 +299,8 @@ class Workshop:
         """Say where it goes on, as somebody who sees every line, inside a stroke too."""
         last = record.runs[-1]
         strokes = self.strokes(record)
+        if last.acked == last.sent < len(strokes):
+            return Reply()  # nothing has left since somebody spoke: as it was said then
         for k in range(last.acked, min(last.sent, len(strokes))):
             done, whole = self.is_cut(record, k), len(strokes[k][1]) - 1
             if done < whole:
@@ -326,12 +328,18 @@ class Workshop:
         for sheet in self.at.job(self.job).sheets:
             for record in self.at.store.ledger.sheet(sheet).records:
                 spoken = {k for run in record.runs for k in range(run.first, run.cut_to or 0)}
+                again = {k for run in record.runs for k in self._chosen_again(run)}
                 for k in range(record.program.strokes):
                     done = self.is_cut(record, k)
-                    known = k in record.certain or k in record.doubtful
+                    known = k in {*record.certain, *record.doubtful, *again}
                     assert not done or known, (record.program.name, k, record)
                     if k in record.certain and k not in spoken:
                         assert done == len(self.strokes(record)[k][1]) - 1, (record, k)
+
+    def _chosen_again(self, run: Entry) -> range:
+        """Return strokes that are cut in part, and that a person who cannot see wants whole."""
+        spoken = self.blind and run.cut_to is not None
+        return range(run.cut_to or 0, run.sent) if spoken else range(0)
 
     def difference(self) -> tuple[Counter[Line], Counter[Line]]:
         """Return what is missing on the sheet, and what is too much."""

@@ -26,6 +26,8 @@ class Said:
     """That of the stroke from which it goes on, where the machine proved its place."""
     overlap: float = 0.0
     """mm that a through-cut is cut again."""
+    who: str = ""
+    """Who says so; by default whoever is at the computer."""
 
     def __str__(self) -> str:
         if self.word is not Word.GO_ON:
@@ -40,12 +42,13 @@ def refuse(record: Record, said: Said) -> None:
     name = f"{record.program.name} of sheet {record.sheet}"
     if record.state not in {State.INTERRUPTED, State.UNCONFIRMED}:
         raise LedgerRefused(f"{name} is {record.state.value}; there is nothing to decide.")
-    if said.word is Word.FINISHED and record.left:
-        raise LedgerRefused(
-            f"{name} cannot be finished: of {len(record.left)} strokes, the first of them number "
-            f"{record.left[0] + 1}, no byte has left this computer."
-        )
     last = record.runs[-1]
+    unsent = record.program.strokes - last.sent
+    if said.word is Word.FINISHED and unsent > 0:
+        raise LedgerRefused(
+            f"{name} cannot be finished: of {unsent} strokes, the first of them number "
+            f"{last.sent + 1}, no byte has left this computer."
+        )
     low, high = last.acked, min(max(last.acked, last.sent), record.program.strokes - 1)
     if said.word is Word.GO_ON and low > high:
         raise LedgerRefused(f"All of {name} is cut for certain; say that it is finished.")

@@ -321,18 +321,17 @@ def test_two_who_go_on_with_a_sheet_at_once_do_not_both_get_it(
     assert ledger.successor(sheet) == first
 
 
-def test_a_stroke_that_goes_on_from_inside_it_is_in_doubt_until_it_is_confirmed(
+def test_a_stroke_that_goes_on_from_inside_is_never_taken_for_one_that_nothing_is_cut_of(
     ledger: Ledger,
 ) -> None:
-    """Between the word and the next run, too: part of it is cut."""
+    """The power fails once more, before a byte of its rest has left."""
     sheet = lay(ledger).id
-    run = ledger.claim(sheet, 0, "bench")
-    run.advance(3, 2)
-    run.end(State.INTERRUPTED, "The cable was out.")
-    record = ledger.say(sheet, 0, Said(Word.GO_ON, 2, 5))
+    ledger.claim(sheet, 0, "dev").advance(3, 2)
+    ledger.recover(sheet, 0)
+    assert ledger.say(sheet, 0, Said(Word.GO_ON, 2, vertex=5)).doubtful == (2,)
+    ledger.claim(sheet, 0, "dev")
+    record = ledger.recover(sheet, 0)
     assert record.doubtful == (2,)
-    assert 2 not in record.left
-    again = ledger.claim(sheet, 0, "bench")
-    assert ledger.record(sheet, 0).doubtful == (2,)
-    again.advance(3, 3)
-    assert 2 in ledger.record(sheet, 0).certain
+    assert record.left == tuple(range(3, STROKES))
+    with pytest.raises(LedgerRefused, match="10 strokes, the first of them number 3"):
+        ledger.say(sheet, 0, Said(Word.FINISHED))
