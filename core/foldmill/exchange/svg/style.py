@@ -23,9 +23,8 @@ Rank = tuple[bool, int, int, int, int]
 """Of a declaration: important, ids, classes, types, order in the file."""
 _SIMPLE = re.compile(r"(\*|[A-Za-z][\w-]*)?((?:[.#][\w-]+)*)")
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-_STATEMENT = re.compile(r"@(?:import|charset|namespace)\b[^;{}]*;", re.IGNORECASE)
-_PRINTED = re.compile(r"@media\s+print\b[^{}]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}", re.IGNORECASE)
-_IMPORTANT = re.compile(r"\s*!\s*important$", re.IGNORECASE)
+_STATEMENT = re.compile(r"@(?:import|charset|namespace)\b[^;{}@]*;", re.IGNORECASE)
+_PRINTED = re.compile(r"@media\s+print\b[^{}@]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}", re.IGNORECASE)
 _MOST_COMPOUNDS = 1000
 """Selectors of several parts; drawing programs write none or few."""
 
@@ -123,8 +122,12 @@ def _declarations(body: str) -> Iterable[tuple[str, str, bool]]:
     for each in body.split(";"):
         name, colon, value = each.partition(":")
         if colon and name.strip().lower() in PROPERTIES:
-            plain = _IMPORTANT.sub("", value.strip())
-            yield name.strip().lower(), plain, plain != value.strip()
+            plain, mark, weight = value.partition("!")
+            yield name.strip().lower(), plain.strip(), bool(mark) and _is_important(weight)
+
+
+def _is_important(weight: str) -> bool:
+    return weight.strip().lower() == "important"
 
 
 def _parts_of(element: Element) -> set[str]:

@@ -335,3 +335,23 @@ def test_a_drawing_in_a_drawing_of_other_proportions_is_refused(size: str) -> No
 def test_a_colour_said_twice_for_printers_is_that_colour() -> None:
     line = '<path d="M0 0L10 0" style="stroke:#ff0000 icc-color(x, 1, 0, 0)"/>'
     assert drawn(line).looks[0].colour == (255, 0, 0)
+
+
+def test_maps_beyond_all_numbers_are_refused_in_one_sentence() -> None:
+    moved = f'<g transform="scale(1e300)"><g transform="scale(1e300)">{LINE}</g></g>'
+    with pytest.raises(UnreadableFile, match="not all numbers within a billion"):
+        drawn(moved)
+
+
+@pytest.mark.parametrize("bomb", ["@import ", "@media print ", "/*", "@media print{", "a{"])
+def test_style_sheets_without_end_are_read_in_one_go(bomb: str) -> None:
+    drawing = drawn(f"<style>{bomb * 100_000}</style>{LINE}")
+    assert drawing.looks[0].colour == (255, 0, 0)
+
+
+def test_a_mile_of_spaces_is_read_in_one_go() -> None:
+    mile = " " * 300_000
+    line = f'<path d="M0 0L10 0" style="stroke:red{mile}x" stroke="{mile}"/>'
+    with pytest.raises(UnreadableFile, match="no lines"):
+        drawn(f'<path d="M0 0L10 0" stroke="{mile}"/>')
+    assert drawn(line).looks[0].colour is None
