@@ -179,7 +179,12 @@ class _Reader:
             self.left["meshes"] += 1
             return
         self.bent += kind in _CURVES or bool(way.has_curves)
-        if _length(way) > 0:
+        length = _length(way)
+        if not np.isfinite(length):
+            raise UnreadableFile(
+                f"The coordinates of an entity {kind} are not all numbers of some size."
+            )
+        if length > 0:
             self._add([(v.x, v.y, v.z) for v in _chords(way)], self._look(entity))
 
     def _add(self, points: list[tuple[float, float, float]], look: Look) -> None:
@@ -237,7 +242,8 @@ class _Reader:
 def _length(way: Any) -> float:
     """Return the length of the corners of a path's curves, of which none is shorter."""
     corners = np.array([(v.x, v.y, v.z) for v in way.control_vertices()], float).reshape(-1, 3)
-    return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
 
 
 def _chords(way: Any) -> list[Any]:

@@ -61,7 +61,7 @@ def read_pattern(
         content = _content(source, limits)
         reader = _reader(Path(title).suffix.lower(), content[:_HEAD])
         fold, is_sized = _read(reader, content, options, limits)
-        fold = _called(fold, reader, title)
+        fold = _called(fold, reader, source)
     except (UnreadableFile, InvalidPattern) as error:
         raise UnreadableFile(f"{title}: {error}") from None
     fold = turned(fold, back=options.side == "back", mirror=options.mirror)
@@ -109,11 +109,11 @@ def _read(reader: Reader, content: bytes, options: Options, limits: Limits) -> t
     return _with_side(fold_of(found, options), options), is_known(found.millimetres, options)
 
 
-def _called(fold: Fold, reader: Reader, name: str) -> Fold:
+def _called(fold: Fold, reader: Reader, source: Path | bytes) -> Fold:
     """Call a drawing without a title by its file, so that its sheets and papers have a name."""
-    if fold.meta.get("title") or reader.slug == "fold" or not Path(name).suffix:
+    if fold.meta.get("title") or reader.slug == "fold" or isinstance(source, bytes):
         return fold
-    return replace(fold, meta={**fold.meta, "title": Path(name).stem})
+    return replace(fold, meta={**fold.meta, "title": source.stem})
 
 
 def _with_side(fold: Fold, options: Options) -> Fold:

@@ -94,9 +94,11 @@ def test_a_file_is_known_by_its_content_where_its_name_says_nothing() -> None:
         read_pattern(b"\x89PNG....")
 
 
-def test_a_drawing_without_a_title_is_called_by_its_file() -> None:
+def test_a_drawing_without_a_title_is_called_by_its_file(tmp_path: Path) -> None:
     content = (SAMPLES / "os_simpleVertex.svg").read_bytes()
-    assert read_pattern(content, name="shop/my tower.svg").fold.meta["title"] == "my tower"
-    titled = content.replace(b"</svg>", b"<title>Tower of paper</title></svg>")
-    assert read_pattern(titled, name="my tower.svg").fold.meta["title"] == "Tower of paper"
-    assert "title" not in read_pattern(content).fold.meta
+    file = tmp_path / "my tower.svg"
+    file.write_bytes(content)
+    assert read_pattern(file).fold.meta["title"] == "my tower"
+    file.write_bytes(content.replace(b"</svg>", b"<title>Tower of paper</title></svg>"))
+    assert read_pattern(file).fold.meta["title"] == "Tower of paper"
+    assert "title" not in read_pattern(content, name="a file.svg").fold.meta
