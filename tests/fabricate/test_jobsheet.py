@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import zlib
+from itertools import combinations
 from pathlib import Path
 
 import hand_made
@@ -21,6 +22,7 @@ from foldmill_fabricate import jobsheet
 from foldmill_fabricate.jobsheet import flip_drawing, words
 from foldmill_fabricate.jobsheet.creases import groups
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.pictures import canvas
 from foldmill_plugins.tuck import DESIGN
 
 MM = 72 / 25.4
@@ -188,3 +190,16 @@ def test_a_job_on_one_face_speaks_of_no_second_pass(tmp_path: Path) -> None:
     assert "the sheet is not turned over" in text
     assert "both passes" not in text
     assert "registration holes" not in text.lower()
+
+
+@pytest.mark.parametrize("after", [False, True])
+def test_no_words_of_the_flip_lie_upon_each_other(after: bool) -> None:
+    with canvas.own_style():
+        figure = canvas.figure(170, 84)
+        axes = canvas.flat_axes(figure, (0.02 + 0.49 * after, 0.02, 0.47, 0.96))
+        flip_drawing.draw(axes, PLAN, after=after)
+        figure.draw_without_rendering()
+        boxes = {text.get_text(): text.get_window_extent() for text in axes.texts}
+    assert {"1", "2", "3", "4"} < set(boxes)
+    for (one, a), (two, b) in combinations(boxes.items(), 2):
+        assert not a.overlaps(b), (one, two)

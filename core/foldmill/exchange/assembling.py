@@ -43,7 +43,8 @@ class _Lines:
 def fold_of(drawing: Drawing, options: Options) -> Fold:
     """Return the crease pattern of a drawing; raises UnreadableFile, saying where and what to do.
 
-    The sheet lies as the drawing shows it, its lower left corner at (0, 0).
+    The sheet lies as the drawing shows it, the lower left corner of its outline at (0, 0), whatever
+    reaches beyond.
     """
     meant = named(drawing.looks, options)
     lines = _lines_of(drawing, meant.letters, options)
@@ -62,7 +63,9 @@ def _lines_of(drawing: Drawing, said: Sequence[str], options: Options) -> _Lines
     letters, angles = _folded([said[k] for k in kept], drawing, kept)
     lines = drawing.upright()[kept]
     lines = lines * factor(lines, letters, drawing.millimetres, options)
-    return _Lines(lines - lines.reshape(-1, 2).min(axis=0), letters, angles)
+    outline = np.isin(letters, ["B", "C"])
+    framed = lines[outline] if outline.any() else lines
+    return _Lines(lines - framed.reshape(-1, 2).min(axis=0), letters, angles)
 
 
 def _joined(lines: _Lines, size: float, options: Options) -> tuple[Outlined, list[Finding]]:

@@ -16,6 +16,8 @@ _HUE_REACH = 20.0
 and cyan (180) do not."""
 _LEAST_SATURATION, _DARK, _LIGHT = 0.4, 0.3, 0.95
 """Less saturated is grey; darker than _DARK is black; lighter grey than _LIGHT is white."""
+_PROFILED = " icc-color("
+"""Begins the same colour once more, for printers, as older drawing programs add it."""
 _FUNCTION = re.compile(r"(rgb|hsl)a?\(([^()]*)\)")
 
 
@@ -24,7 +26,7 @@ def parse(text: str) -> tuple[Colour, float] | None:
     """Return a colour and its alpha, 0 to 1; None for "none" and whatever is no plain colour."""
     from PIL import ImageColor
 
-    word = text.strip().lower()
+    word = text.strip().lower().partition(_PROFILED)[0].strip()
     alpha = 1.0
     if found := _FUNCTION.fullmatch(word):
         kind, values = found[1], re.split(r"[\s,/]+", found[2].strip())

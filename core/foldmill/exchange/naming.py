@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from foldmill.errors import UnreadableFile
@@ -20,14 +20,18 @@ from foldmill.finding import Finding, Severity
 _WORDS = {
     "M": ("mountain", "mountains", "mtn", "ridge", "ridges"),
     "V": ("valley", "valleys"),
-    "B": ("boundary", "boundaries", "border", "borders", "outline", "edge", "edges", "contour"),
+    "B": ("boundary", "boundaries", "border", "borders", "outline", "contour"),
     "C": ("cut", "cuts", "cutting", "slit", "slits", "hole", "holes"),
     "F": ("flat", "facet", "facets", "aux", "auxiliary", "triangulation", "guide", "guides"),
     "U": ("unassigned", "hinge", "hinges", "undriven", "universal"),
     SKIP: ("note", "notes", "text", "label", "labels", "annotation", "annotations", "dimensions"),
 }
+_WEAK = {"edge": "B", "edges": "B"}
+"""Believed after colours: an edge is the outline to some, and any line of the graph to others."""
 _MEANING = {word: letter for letter, words in _WORDS.items() for word in words}
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]*|[a-z]+")
+_NAMELESS = "no colour"
+"""What lines without colour and layer are called, in questions and in answers."""
 _SHOWN = 6
 """How many unknown colours and layers a sentence lists."""
 
@@ -67,6 +71,8 @@ def _meaning(look: Look, options: Options) -> str | None:
     if by_layer is not None:
         return by_layer
     by_colour = None if options.by == "layer" else _colour_letter(look)
+    if by_colour is None and options.by != "colour":
+        by_colour = layer_letter(look.layers, _WEAK)
     return options.named.get(OTHER) if by_colour is None else by_colour
 
 
@@ -84,15 +90,18 @@ def _said(look: Look, options: Options) -> str | None:
         colour = colours.parse(name)
         if colour is not None and colour[0] == look.colour:
             return letter
-    return None
+    return said.get(_NAMELESS) if _name(look) == _NAMELESS else None
 
 
-def layer_letter(layers: Sequence[str]) -> str | None:
-    """Return what names of layers say, the innermost that says anything; None where none does."""
+def layer_letter(layers: Sequence[str], meaning: Mapping[str, str] = _MEANING) -> str | None:
+    """Return what names of layers say, the innermost that says anything; None where none does.
+
+    Single letters count as capitals only: programs that shorten files call classes a, b, c.
+    """
     for layer in reversed(layers):
-        if layer.upper() in LETTERS and len(layer) == 1:
-            return layer.upper()
-        meant = {_MEANING[word] for word in _words(layer) if word in _MEANING}
+        if layer in LETTERS and len(layer) == 1:
+            return layer
+        meant = {meaning[word] for word in _words(layer) if word in meaning}
         if len(meant) == 1:
             return meant.pop()
     return None
@@ -120,7 +129,7 @@ def _refuse_unknown(unknown: dict[Look, int]) -> None:
 
 
 def _name(look: Look) -> str:
-    return look.hex or (look.layers[-1] if look.layers else "no colour")
+    return look.hex or (look.layers[-1] if look.layers else _NAMELESS)
 
 
 def _left_out(count: int) -> list[Finding]:

@@ -31,6 +31,8 @@ _SHARE = 1 / 2000
 _FLAT_SHARE = 1e-6
 """Share of the size by which a drawing may leave its plane."""
 _WHITE_OR_BLACK = 7
+_NEVER_PLOTTED = "defpoints"
+"""A layer of helping points that CAD programs show and never print."""
 _BY_LAYER, _BY_BLOCK = 256, 0
 _UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1e3, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
 """mm per unit by the numbers of $INSUNITS; 0 is no unit."""
@@ -75,7 +77,8 @@ def _document(content: bytes) -> Any:
     if b"SECTION" not in content:
         raise UnreadableFile("This is no DXF file: it has no section.")
     with suppress(Exception):
-        return filemanagement.read(StringIO(content.decode("utf-8", errors="surrogateescape")))
+        text = content.decode("utf-8", errors="surrogateescape")
+        return filemanagement.read(StringIO(text, newline=None))  # as Windows ends lines, too
     try:
         return recover.read(BytesIO(content))[0]
     except Exception as error:  # see above
@@ -147,6 +150,9 @@ class _Reader:
             if entity.dxftype() != "INSERT":
                 yield entity
                 continue
+            if self._is_frozen(entity.dxf.layer) or entity.dxf.get("invisible", 0):
+                self.left["blocks that are frozen or invisible"] += 1
+                continue
             for each in entity.multi_insert() if entity.mcount > 1 else [entity]:
                 yield from self._set_in(_parts(each))
 
@@ -154,6 +160,8 @@ class _Reader:
         kind = entity.dxftype()
         if not self._is_on(entity.dxf.layer):
             self.left["entities on layers that are switched off"] += 1
+        elif entity.dxf.get("invisible", 0):
+            self.left["entities that are invisible"] += 1
         elif kind not in _LINES:
             self.left[f"{kind}"] += 1
         elif kind == "LINE":
@@ -171,12 +179,13 @@ class _Reader:
             self.left["meshes"] += 1
             return
         self.bent += kind in _CURVES or bool(way.has_curves)
-        corners = np.array([(v.x, v.y, v.z) for v in way.control_vertices()], float)
-        length = float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
-        if len(corners) < 2 or not length > 0:
-            return
-        points = way.flattening(length * _SHARE) if way.has_curves else way.control_vertices()
-        self._add([(v.x, v.y, v.z) for v in points], self._look(entity))
+        length = _length(way)
+        if not np.isfinite(length):
+            raise UnreadableFile(
+                f"The coordinates of an entity {kind} are not all numbers of some size."
+            )
+        if length > 0:
+            self._add([(v.x, v.y, v.z) for v in _chords(way)], self._look(entity))
 
     def _add(self, points: list[tuple[float, float, float]], look: Look) -> None:
         for (x0, y0, z0), (x1, y1, z1) in pairwise(points):
@@ -187,10 +196,13 @@ class _Reader:
 
     def _is_on(self, name: str) -> bool:
         layers = self.document.layers
-        if name not in layers:
-            return True
-        layer = layers.get(name)
-        return not (layer.is_off() or layer.is_frozen())
+        if name.lower() == _NEVER_PLOTTED or self._is_frozen(name):
+            return False
+        return name not in layers or not layers.get(name).is_off()
+
+    def _is_frozen(self, name: str) -> bool:
+        layers = self.document.layers
+        return name in layers and bool(layers.get(name).is_frozen())
 
     def _look(self, entity: Any) -> Look:
         key = (entity.dxf.layer, entity.dxf.color, entity.dxf.get("true_color"))
@@ -227,6 +239,32 @@ class _Reader:
         return [sentence for sentence in said if sentence]
 
 
+def _length(way: Any) -> float:
+    """Return the length of the corners of a path's curves, of which none is shorter."""
+    corners = np.array([(v.x, v.y, v.z) for v in way.control_vertices()], float).reshape(-1, 3)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
+
+
+def _chords(way: Any) -> list[Any]:
+    """Return a path's corners, each of its curves as chords by that curve's own length."""
+    from ezdxf import path
+
+    found = [way.start]
+    for piece in way.commands():
+        if piece.type is path.Command.LINE_TO:
+            found.append(piece.end)
+            continue
+        one = path.Path(found[-1])
+        if piece.type is path.Command.CURVE4_TO:
+            one.curve4_to(piece.end, piece.ctrl1, piece.ctrl2)
+        else:
+            one.curve3_to(piece.end, piece.ctrl)
+        length = _length(one)
+        found += list(one.flattening(length * _SHARE))[1:] if length > 0 else [piece.end]
+    return found
+
+
 def _parts(insert: Any) -> Iterator[Any]:
     """Yield what a block holds, where it is set in; lines of its layer 0 lie on the block's own."""
     for part in insert.virtual_entities():
@@ -234,4 +272,6 @@ def _parts(insert: Any) -> Iterator[Any]:
             part.dxf.layer = insert.dxf.layer
         if part.dxf.color == _BY_BLOCK:
             part.dxf.color = insert.dxf.color
+            if insert.dxf.hasattr("true_color"):
+                part.dxf.true_color = insert.dxf.true_color
         yield part

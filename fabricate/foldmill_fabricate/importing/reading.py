@@ -61,6 +61,7 @@ def read_pattern(
         content = _content(source, limits)
         reader = _reader(Path(title).suffix.lower(), content[:_HEAD])
         fold, is_sized = _read(reader, content, options, limits)
+        fold = _called(fold, reader, source)
     except (UnreadableFile, InvalidPattern) as error:
         raise UnreadableFile(f"{title}: {error}") from None
     fold = turned(fold, back=options.side == "back", mirror=options.mirror)
@@ -106,6 +107,13 @@ def _read(reader: Reader, content: bytes, options: Options, limits: Limits) -> t
     if isinstance(found, Sized):
         return found.fold, found.is_sized
     return _with_side(fold_of(found, options), options), is_known(found.millimetres, options)
+
+
+def _called(fold: Fold, reader: Reader, source: Path | bytes) -> Fold:
+    """Call a drawing without a title by its file, so that its sheets and papers have a name."""
+    if fold.meta.get("title") or reader.slug == "fold" or isinstance(source, bytes):
+        return fold
+    return replace(fold, meta={**fold.meta, "title": source.stem})
 
 
 def _with_side(fold: Fold, options: Options) -> Fold:

@@ -90,7 +90,9 @@ def _draw_marks(axes: Axes, plan: Plan, *, after: bool) -> None:
     if marks:
         x, y = np.vstack(marks).mean(axis=0)
         words = "mark, underneath" if after else "witness mark"
-        _label(axes, plan, (x, y), words, MARK, 0.08)
+        inward = -0.1 if y > plan.sheet.height / 2 else 0.1  # clear of a hole's number beside it
+        spot = (x, y + inward * max(plan.sheet.width, plan.sheet.height))
+        _label(axes, plan, spot, words, MARK)
 
 
 _CARETS = {"left": 5, "right": 4, "bottom": 6, "top": 7}

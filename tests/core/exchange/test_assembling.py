@@ -61,6 +61,7 @@ def test_what_reaches_beyond_the_outline_is_cut_off() -> None:
     fold = sheet([*BOX, (-7, 50, 120, 50)], "BBBBM")
     assert lines(fold, "M") == 1
     assert np.ptp(fold.pattern.vertices, axis=0).tolist() == [100, 100]
+    assert fold.pattern.vertices.min(axis=0).tolist() == [0, 0]
     assert "import-overshoot" in codes(fold)
 
 

@@ -55,10 +55,11 @@ def test_colours_mean_what_crease_pattern_programs_mean(word: str, letter: str |
         ("valley-folds", "V"),
         ("CutLine", "C"),
         ("Boundary", "B"),
-        ("edges", "B"),
+        ("edges", None),  # the outline to some, all lines to others: colours say which
         ("AuxiliaryLine", "F"),
         ("M", "M"),
-        ("v", "V"),
+        ("V", "V"),
+        ("v", None),  # a class or id that some program shortened
         ("Layer 1", None),
         ("g1234", None),
         ("mountains and valleys", None),
@@ -110,3 +111,22 @@ def test_by_layer_a_colour_says_nothing() -> None:
 def test_a_drawing_of_which_nothing_is_left_is_refused() -> None:
     with pytest.raises(UnreadableFile, match="All lines of this drawing are left out"):
         named([Look("", (), BLACK)], Options(named={"black": "skip"}))
+
+
+def test_short_names_that_programs_give_to_classes_mean_nothing() -> None:
+    red, blue = (255, 0, 0), (0, 0, 255)
+    looks = [Look("", ("b",), red), Look("", ("c",), blue), Look("", ("f",), red)]
+    assert named(looks, Options()).letters == ("M", "V", "M")
+
+
+def test_an_edge_is_the_outline_where_no_colour_says_otherwise() -> None:
+    looks = [Look("", ("edges",), (255, 0, 0)), Look("", ("edges",), (0, 0, 0))]
+    assert named(looks, Options()).letters == ("M", "B")
+    assert named([Look("", ("Edge",), (255, 128, 0))], Options()).letters == ("B",)
+    assert named(looks, Options(by="layer")).letters == ("B", "B")
+
+
+def test_lines_of_no_colour_are_named_as_the_question_calls_them() -> None:
+    with pytest.raises(UnreadableFile, match="--as 'no colour=M'"):
+        named([Look()], Options())
+    assert named([Look()], Options(named={"no colour": "M"})).letters == ("M",)

@@ -151,3 +151,48 @@ def test_a_mountain_in_blue_is_a_mountain_by_its_layer_and_a_valley_by_colour() 
         assert fold.pattern.letters().count(letter) == 1
     said = Options(by="colour", named={"Outline": "B"})
     assert read_pattern(text(document), said, name="x.dxf").fold.pattern.letters().count("V") == 1
+
+
+def test_lines_may_end_as_windows_ends_them() -> None:
+    document = sheet()
+    document.modelspace().add_line((0, 20), (100, 50), dxfattribs={"layer": "Mountain"})
+    found = dxf.read(text(document).replace(b"\n", b"\r\n"), Options(), DEFAULT)
+    assert found.segments.tolist() == drawn(document).segments.tolist()
+    assert [look.layers for look in found.looks] == [("Outline",)] * 4 + [("Mountain",)]
+    assert found.millimetres == 1
+
+
+def test_what_a_cad_program_never_shows_or_prints_is_no_crease() -> None:
+    document = sheet()
+    space = document.modelspace()
+    document.layers.add("Frozen").freeze()
+    block = document.blocks.new("PART")
+    block.add_line((0, 0), (100, 100), dxfattribs={"layer": "Valley"})
+    space.add_blockref("PART", (0, 0), dxfattribs={"layer": "Frozen"})
+    space.add_line((0, 100), (100, 0), dxfattribs={"layer": "Valley", "invisible": 1})
+    space.add_line((-5, -5), (105, -5), dxfattribs={"layer": "Defpoints"})
+    found = drawn(document)
+    assert {look.layers for look in found.looks} == {("Outline",)}
+    assert "invisible" in found.notes[0]
+    assert "frozen" in found.notes[0]
+
+
+def test_a_block_gives_its_lines_its_true_colour() -> None:
+    document = sheet("R2010")
+    document.blocks.new("PART").add_line((0, 20), (100, 50), dxfattribs={"color": 0})
+    insert = document.modelspace().add_blockref("PART", (0, 0), dxfattribs={"color": 1})
+    insert.dxf.true_color = 0x0000FF
+    assert drawn(document).looks[-1].colour == (0, 0, 255)
+
+
+def test_a_small_curve_in_a_long_outline_is_as_round_as_one_by_itself() -> None:
+    document = new("R2000", units=4)
+    quarter = 2**0.5 - 1  # the bulge of a right angle
+    corners = [(0, 0, 0), (1800, 0, quarter), (2000, 200, 0), (2000, 900, 0), (0, 900, 0)]
+    document.modelspace().add_lwpolyline(corners, format="xyb", close=True)
+    lines = drawn(document).segments
+    middle = lines.mean(axis=1)
+    bent = middle[(middle[:, 0] > 1800) & (middle[:, 1] < 200)]
+    strays = 200 - np.hypot(*(bent - [1800, 200]).T)
+    assert len(bent) >= 4
+    assert strays.max() <= 200 * np.pi / 2 / 2000

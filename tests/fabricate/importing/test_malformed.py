@@ -46,6 +46,17 @@ LAUGHS = (
 OUTSIDE = '<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]><svg><text>&a;</text></svg>'
 
 MALFORMED: dict[str, tuple[str, bytes, str]] = {
+    # curves that would be missing without a word
+    "an ellipse nowhere": (
+        "x.dxf",
+        dxf(*SQUARE, "0 ELLIPSE 8 0 62 1 10 nan 20 1 11 1 21 0 40 1 41 0 42 6"),
+        "coordinates of an entity ELLIPSE",
+    ),
+    "an arc beyond all numbers": (
+        "x.dxf",
+        dxf(*SQUARE, "0 ARC 8 0 62 1 10 1 20 1 40 1e300 50 0 51 90"),
+        "coordinates of an entity ARC",
+    ),
     # XML
     "an empty file": ("x.svg", b"", "is empty"),
     "spaces only": ("x.svg", b" \n ", "is empty"),

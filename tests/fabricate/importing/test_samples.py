@@ -92,3 +92,13 @@ def test_a_file_is_known_by_its_content_where_its_name_says_nothing() -> None:
     assert read_pattern(b"1 0 0 4 0\n1 4 0 0 3\n1 0 3 0 0\n").format == "cp"
     with pytest.raises(UnreadableFile, match=r"Those that can: .cp, .dxf, .fold, .opx, .svg"):
         read_pattern(b"\x89PNG....")
+
+
+def test_a_drawing_without_a_title_is_called_by_its_file(tmp_path: Path) -> None:
+    content = (SAMPLES / "os_simpleVertex.svg").read_bytes()
+    file = tmp_path / "my tower.svg"
+    file.write_bytes(content)
+    assert read_pattern(file).fold.meta["title"] == "my tower"
+    file.write_bytes(content.replace(b"</svg>", b"<title>Tower of paper</title></svg>"))
+    assert read_pattern(file).fold.meta["title"] == "Tower of paper"
+    assert "title" not in read_pattern(content, name="a file.svg").fold.meta

@@ -74,6 +74,19 @@ def page(attributes: Mapping[str, str]) -> tuple[float, float, float | None]:
     return *across, PX_MM if is_physical else None
 
 
+def refuse_unplaced(attributes: Mapping[str, str]) -> None:
+    """Refuse a drawing in a drawing whose viewBox does not fill a place of a size of its own."""
+    box = numbers(attributes.get("viewBox", ""), "viewBox")
+    if len(box) != 4 or attributes.get("preserveAspectRatio", "").split()[:1] == ["none"]:
+        return
+    wide, high = px(attributes, "width"), px(attributes, "height")
+    if not (wide > 0 and high > 0 and abs(wide * box[3] - high * box[2]) <= 1e-6 * wide * box[3]):
+        raise UnreadableFile(
+            "A drawing within this drawing (<svg> in <svg>) has a viewBox of other proportions "
+            "than its width and height, or no such size; write both alike."
+        )
+
+
 def _uniform(scales: list[float], aspect: str) -> tuple[float, float]:
     if not scales:
         return 1.0, 1.0

@@ -92,6 +92,7 @@ class _Reader:
             return place
         said = child.attributes
         across, down, _ = lengths.page(said)
+        lengths.refuse_unplaced(said)
         corner = lengths.numbers(said.get("viewBox", ""), "viewBox")
         left, top = (corner[0], corner[1]) if len(corner) == 4 else (0.0, 0.0)
         x, y = lengths.px(said, "x"), lengths.px(said, "y")
@@ -105,6 +106,7 @@ class _Reader:
             self.left["hidden parts"] += 1
             return None
         said = element.attributes
+        _refuse_moved(said, style)
         affine = outer.affine
         if said.get("transform", "none").strip() not in {"", "none"}:
             affine = transforms.after(affine, transforms.parse(said["transform"]))
@@ -144,6 +146,17 @@ class _Reader:
             else "",
         ]
         return [sentence for sentence in said if sentence]
+
+
+def _refuse_moved(said: dict[str, str], style: dict[str, str]) -> None:
+    """Refuse what moves a part by a style, in which transforms are others than in an attribute."""
+    moved = style.get("transform", "none")
+    if moved not in {"", "none", said.get("transform")} or "transform-origin" in style:
+        raise UnreadableFile(
+            "This drawing moves parts of itself by transforms in styles, which are not followed, "
+            "so its lines would lie elsewhere than they are seen. Write them as the attribute "
+            "transform, without transform-origin (Inkscape does when it saves)."
+        )
 
 
 def _look(place: _Place) -> Look | None:

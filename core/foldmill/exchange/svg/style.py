@@ -14,12 +14,17 @@ from math import isnan
 from foldmill.errors import UnreadableFile
 from foldmill.exchange.safe_xml import Element
 
-PROPERTIES = ("stroke", "stroke-opacity", "opacity", "display", "visibility", "color")
+PROPERTIES = (
+    *("stroke", "stroke-opacity", "opacity", "display", "visibility", "color"),
+    *("transform", "transform-origin"),
+)
 INHERITED = ("stroke", "stroke-opacity", "visibility", "color")
 Rank = tuple[bool, int, int, int, int]
 """Of a declaration: important, ids, classes, types, order in the file."""
 _SIMPLE = re.compile(r"(\*|[A-Za-z][\w-]*)?((?:[.#][\w-]+)*)")
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_STATEMENT = re.compile(r"@(?:import|charset|namespace)\b[^;{}@]*;", re.IGNORECASE)
+_PRINTED = re.compile(r"@media\s+print\b[^{}@]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}", re.IGNORECASE)
 _MOST_COMPOUNDS = 1000
 """Selectors of several parts; drawing programs write none or few."""
 
@@ -35,15 +40,15 @@ class Sheet:
     unknown: int = 0
     """Rules that are not understood."""
 
-    def declared(self, element: Element) -> dict[str, str]:
-        """Return what the rules say of an element."""
+    def declared(self, element: Element) -> dict[str, tuple[Rank, str]]:
+        """Return what the rules say of an element, and how much it weighs."""
         own = _parts_of(element)
         found: dict[str, tuple[Rank, str]] = {}
         for declarations in self._fitting(own):
             for name, ranked in declarations.items():
                 if name not in found or ranked[0] >= found[name][0]:
                     found[name] = ranked
-        return {name: value for name, (_, value) in found.items()}
+        return found
 
     def _fitting(self, own: set[str]) -> Iterator[Mapping[str, tuple[Rank, str]]]:
         for part in sorted(own):
@@ -60,7 +65,7 @@ def sheet_of(root: Element) -> Sheet:
     for element in root.walk():
         if element.name != "style":
             continue
-        for block in _COMMENT.sub(" ", element.text).split("}"):
+        for block in _screened(element.text).split("}"):
             selectors, brace, body = block.rpartition("{")
             if not brace:
                 continue
@@ -70,9 +75,17 @@ def sheet_of(root: Element) -> Sheet:
     return sheet
 
 
+def _screened(text: str) -> str:
+    """Return the rules without what is no rule, or none for the screen."""
+    for pattern in (_COMMENT, _STATEMENT, _PRINTED):
+        text = pattern.sub(" ", text)
+    return text
+
+
 def _add(sheet: Sheet, selector: str, body: str, order: int) -> None:
     found = _SIMPLE.fullmatch(selector)
     if not found or not selector:
+        _refuse_strokes(selector, body)
         sheet.unknown += 1
         return
     parts = re.findall(r"[.#][\w-]+", found[2]) + ([found[1]] if found[1] else [])
@@ -83,16 +96,38 @@ def _add(sheet: Sheet, selector: str, body: str, order: int) -> None:
         known = sheet.compound.setdefault(tuple(sorted(parts)), {})
     if len(sheet.compound) > _MOST_COMPOUNDS:
         raise UnreadableFile(f"The style sheet has over {_MOST_COMPOUNDS} selectors in parts.")
-    for name, value in _declarations(body):
-        is_important = value.endswith("!important")
-        known[name] = ((is_important, *rank), value.removesuffix("!important").strip())
+    for name, value, is_important in _declarations(body):
+        ranked = ((is_important, *rank), value)
+        if name not in known or ranked[0] >= known[name][0]:
+            known[name] = ranked
 
 
-def _declarations(body: str) -> Iterable[tuple[str, str]]:
+def _refuse_strokes(selector: str, body: str) -> None:
+    """Refuse a rule that is not understood and says of what lines look like.
+
+    Rules for what a pointer does say nothing of the drawing as it is first seen.
+    """
+    if not selector or (":" in selector and "@" not in selector):
+        return
+    if any(name in {"stroke", "stroke-opacity", "opacity"} for name, _, _ in _declarations(body)):
+        raise UnreadableFile(
+            f"The style sheet says what {selector[:60]!r} looks like, a selector that is not "
+            f"understood, and without it lines would be missed. Give those lines a class or a "
+            f"stroke of their own."
+        )
+
+
+def _declarations(body: str) -> Iterable[tuple[str, str, bool]]:
+    """Yield name, value and whether it is important."""
     for each in body.split(";"):
         name, colon, value = each.partition(":")
         if colon and name.strip().lower() in PROPERTIES:
-            yield name.strip().lower(), value.strip()
+            plain, mark, weight = value.partition("!")
+            yield name.strip().lower(), plain.strip(), bool(mark) and _is_important(weight)
+
+
+def _is_important(weight: str) -> bool:
+    return weight.strip().lower() == "important"
 
 
 def _parts_of(element: Element) -> set[str]:
@@ -112,9 +147,11 @@ def style_of(element: Element, sheet: Sheet, outer: Mapping[str, str]) -> dict[s
     """
     style = {name: outer[name] for name in INHERITED if name in outer}
     own = {name: element.attributes[name] for name in PROPERTIES if name in element.attributes}
-    own |= sheet.declared(element)
-    for name, value in _declarations(element.attributes.get("style", "")):
-        own[name] = value.removesuffix("!important").strip()
+    declared = sheet.declared(element)
+    own |= {name: value for name, (_, value) in declared.items()}
+    for name, value, is_important in _declarations(element.attributes.get("style", "")):
+        if is_important or name not in declared or not declared[name][0][0]:
+            own[name] = value
     return style | {name: value for name, value in own.items() if value != "inherit"}
 
 

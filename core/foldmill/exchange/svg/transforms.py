@@ -31,7 +31,8 @@ def after(outer: Affine, inner: Affine) -> Affine:
 def applied(affine: Affine, points: Floats) -> Floats:
     """Return points (n, 2) mapped."""
     a, b, c, d, e, f = affine
-    moved: Floats = points @ np.array([[a, b], [c, d]]) + [e, f]
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused by its line
+        moved: Floats = points @ np.array([[a, b], [c, d]]) + [e, f]
     return moved
 
 

@@ -272,7 +272,7 @@ def test_an_arc_of_svg_is_where_the_standard_says() -> None:
 
 
 def test_css_that_is_not_understood_is_told() -> None:
-    drawing = drawn(f"<style>g > path {{stroke:blue}} .a{{stroke:red}}</style>{LINE}")
+    drawing = drawn(f"<style>g > path {{cursor:help}} .a{{stroke:red}}</style>{LINE}")
     assert drawing.notes == ("1 rules of the style sheet are not understood.",)
 
 
@@ -280,3 +280,78 @@ def test_an_absurd_style_sheet_is_refused() -> None:
     rules = "".join(f"a.b{k}{{stroke:red}}" for k in range(1100))
     with pytest.raises(UnreadableFile, match="over 1000 selectors"):
         drawn(f"<style>{rules}</style>{LINE}")
+
+
+@pytest.mark.parametrize("selector", ["g > path", "g path", "[id]", "@media screen {path"])
+def test_css_that_could_lose_lines_or_turn_their_colour_is_refused(selector: str) -> None:
+    with pytest.raises(UnreadableFile, match="looks like, a selector that is not understood"):
+        drawn(f"<style>{selector.replace('>', '&gt;')} {{stroke:blue}}</style>{LINE}")
+
+
+@pytest.mark.parametrize(
+    "style",
+    [
+        "path{stroke:red !important}",
+        "path{stroke:red ! IMPORTANT}",
+        "path{stroke:red!important} #a{stroke:lime}",
+        "path{stroke:red!important; stroke:lime}",
+        "@charset 'utf-8'; @import url(x.css); path{stroke:red!important}",
+        "path{stroke:red!important} @media print {path{fill:red} path{stroke:lime!important}}",
+    ],
+)
+def test_what_is_important_stands_above_the_style_of_the_line(style: str) -> None:
+    line = '<path id="a" d="M0 0L10 0" style="stroke:blue"/>'
+    assert drawn(f"<style>{style}</style>{line}").looks[0].colour == (255, 0, 0)
+
+
+def test_an_important_style_of_the_line_stands_above_all() -> None:
+    line = '<path d="M0 0L10 0" style="stroke: red ! important"/>'
+    found = drawn(f"<style>path{{stroke:blue!important}}</style>{line}")
+    assert found.looks[0].colour == (255, 0, 0)
+
+
+@pytest.mark.parametrize(
+    "moved",
+    [
+        'style="transform:translate(5px,0)"',
+        'class="moved"',
+        'transform="rotate(90)" transform-origin="50 50"',
+    ],
+)
+def test_lines_moved_by_styles_are_refused_and_not_misplaced(moved: str) -> None:
+    rules = "<style>.moved{transform:rotate(90deg)}</style>"
+    with pytest.raises(UnreadableFile, match="transforms in styles"):
+        drawn(f"{rules}<g {moved}>{LINE}</g>")
+
+
+@pytest.mark.parametrize(
+    "size", ["", 'width="10" height="10"', 'width="10" height="10" preserveAspectRatio="xMinYMin"']
+)
+def test_a_drawing_in_a_drawing_of_other_proportions_is_refused(size: str) -> None:
+    with pytest.raises(UnreadableFile, match="other proportions"):
+        drawn(f'<svg {size} viewBox="0 0 10 5">{LINE}</svg>')
+
+
+def test_a_colour_said_twice_for_printers_is_that_colour() -> None:
+    line = '<path d="M0 0L10 0" style="stroke:#ff0000 icc-color(x, 1, 0, 0)"/>'
+    assert drawn(line).looks[0].colour == (255, 0, 0)
+
+
+def test_maps_beyond_all_numbers_are_refused_in_one_sentence() -> None:
+    moved = f'<g transform="scale(1e300)"><g transform="scale(1e300)">{LINE}</g></g>'
+    with pytest.raises(UnreadableFile, match="not all numbers within a billion"):
+        drawn(moved)
+
+
+@pytest.mark.parametrize("bomb", ["@import ", "@media print ", "/*", "@media print{", "a{"])
+def test_style_sheets_without_end_are_read_in_one_go(bomb: str) -> None:
+    drawing = drawn(f"<style>{bomb * 100_000}</style>{LINE}")
+    assert drawing.looks[0].colour == (255, 0, 0)
+
+
+def test_a_mile_of_spaces_is_read_in_one_go() -> None:
+    mile = " " * 300_000
+    line = f'<path d="M0 0L10 0" style="stroke:red{mile}x" stroke="{mile}"/>'
+    with pytest.raises(UnreadableFile, match="no lines"):
+        drawn(f'<path d="M0 0L10 0" stroke="{mile}"/>')
+    assert drawn(line).looks[0].colour is None
