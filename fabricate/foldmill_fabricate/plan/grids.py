@@ -15,8 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
-from scipy.spatial import ConvexHull
 
 from foldmill_fabricate.sheet import turned
 
@@ -66,6 +64,8 @@ class Block:
         cls, points: Floats, clearance: float, count: int = 1, shape: Grid | None = None
     ) -> Block:
         """Return the block of copies of a part, its vertices (n, 2) in mm."""
+        from scipy.spatial import ConvexHull
+
         wanted = count if shape is None else shape.columns * shape.rows
         return cls(points[ConvexHull(points).vertices], clearance, wanted, shape)
 
@@ -148,6 +148,8 @@ class Block:
         return Turn(grid, angle, missing)
 
     def _best_angle(self, excess: Callable[[float], float]) -> float:
+        from scipy.optimize import minimize_scalar
+
         tried, _ = self._tried
         values = np.array([excess(angle) for angle in tried])
         best = float(tried[int(np.argmin(np.round(values, 6)))])

@@ -41,7 +41,7 @@ def prove_copies(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
         told = _one_copy(asked, copy, [s for s in strokes if s.piece == copy])
         moved |= {copy} if told else set()
         found += told
-    return found + _strangers(asked, strokes, moved) + _order(strokes)
+    return found + _strangers(asked, strokes, moved) + prove_turns(strokes)
 
 
 def _error(code: str, where: str, message: str, remedy: str = "") -> Finding:
@@ -111,7 +111,7 @@ def _far(stroke: Planned, gap: float) -> str:
     return f"It is said to belong to copy {stroke.piece}, and lies {gap:.2f} mm from it."
 
 
-def _order(strokes: Sequence[Planned]) -> list[Finding]:
+def prove_turns(strokes: Sequence[Planned]) -> list[Finding]:
     """Check that the cutting of one copy is finished before that of the next begins."""
     found = []
     for rank, own in groupby(strokes, key=lambda stroke: stroke.rank):

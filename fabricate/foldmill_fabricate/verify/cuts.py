@@ -22,14 +22,11 @@ from foldmill_fabricate.verify.cover import (
     stretches,
     uncovered,
 )
-from foldmill_fabricate.verify.eased import Eased
+from foldmill_fabricate.verify.eased import LEAST_TIES, Eased
 from foldmill_fabricate.verify.planned import Planned, at
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-LEAST_TIES = 3
-"""With fewer the part swings about the last one."""
 
 
 def prove_cuts(asked: Asked, strokes: Sequence[Planned]) -> list[Finding]:
@@ -146,9 +143,11 @@ def _tie_findings(asked: Asked) -> list[Finding]:
         text = f"The outline is made by {cut.title}; there is nothing for a tie to hold."
         return [_error("ties-unasked", "outline", text)] if ties else []
     owners = [_owner(asked, tie) for tie in ties]
+    corners, eased = _corners(asked), [Eased(asked, cut, loop) for loop in asked.loops]
     for copy in range(asked.laid.count):
         found += _enough(asked, cut, copy, owners.count(copy))
-    corners, eased = _corners(asked), [Eased(asked, cut, loop) for loop in asked.loops]
+        held = [tie for tie, owner in zip(ties, owners, strict=True) if owner == copy]
+        found += _spread(eased[copy], held, copy)
     for k, tie in enumerate(ties, 1):
         own = eased[max(owners[k - 1], 0)]
         found += _one_tie(own, tie, f"tie {k} at {at((tie.x, tie.y))}", corners)
@@ -176,6 +175,17 @@ def _enough(asked: Asked, cut: ThroughCut, copy: int, count: int) -> list[Findin
         text = f"{count} ties hold an outline of {around:.0f} mm; {usual} are usual."
         return [Finding("few-ties", Severity.WARNING, where, text)]
     return []
+
+
+def _spread(eased: Eased, ties: Sequence[Tie], copy: int) -> list[Finding]:
+    """Check that ties hold a copy all round it, not on one side."""
+    if len(ties) < LEAST_TIES or (unheld := eased.unheld(ties)) is None:
+        return []
+    away, spot = unheld
+    where = "outline" if eased.asked.laid.count == 1 else f"outline of copy {copy + 1}"
+    text = f"The edge at {at(spot)} has room for a tie, and the nearest one is {away:.1f} mm along "
+    text += f"the outline from it; {eased.cut.tie_pitch:g} mm are usual: the part may swing out."
+    return [_error("ties-bunched", where, text)]
 
 
 def _one_tie(eased: Eased, tie: Tie, where: str, corners: Floats) -> list[Finding]:

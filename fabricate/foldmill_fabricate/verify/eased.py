@@ -8,6 +8,7 @@ crease ends or an inner cut comes out. The outline is walked in small steps to f
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,6 +24,9 @@ from foldmill_fabricate.verify.asked import Asked
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+
+LEAST_TIES = 3
+"""With fewer the part swings about the last one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +52,50 @@ class Eased:
             return "it is not in the middle of a short edge"
         good = self._good_near(place)
         return "" if good is None else f"{good:.1f} mm further is room for a tie as asked for"
+
+    def unheld(self, ties: Sequence[Tie]) -> tuple[float, Floats] | None:
+        """Return the place (2,) on a straight edge furthest from all ties, and how far it is, mm.
+
+        None where each place at which a tie as asked for could be has one within a pitch of it.
+        Along the outline; to and fro is as far as ties may be moved to lie on straight edges.
+        """
+        whole = self._whole
+        pitch = whole / max(LEAST_TIES, round(whole / self.cut.tie_pitch))
+        spots = self._spots_as_asked()
+        if not len(spots):
+            return None
+        apart = np.abs(spots[:, None] - np.array([self._place(tie) for tie in ties])[None, :])
+        away = np.minimum(apart, whole - apart).min(axis=1, initial=np.inf)
+        if away.max() <= pitch + 2 * self.cut.tie_corner + tolerances.BESIDE_MM:
+            return None
+        return float(away.max()), self._at(float(spots[int(np.argmax(away))]))
+
+    def _spots_as_asked(self) -> Floats:
+        """Return the first and last place (n,) of each straight side where a tie may be, mm."""
+        stops = np.sort(self._along[:-1][self._bends() | self._is_mouth()])
+        runs = np.diff(np.append(stops, stops[:1] + self._whole))
+        low = stops[runs > 2 * self._room] + self._room
+        high = (stops + runs)[runs > 2 * self._room] - self._room
+        return np.concatenate([low, (low + high) / 2, high]) % self._whole
+
+    def _bends(self) -> Flags:
+        """Tell at which vertices the outline goes on otherwise than straight."""
+        rim = self.asked.spots[self.loop]
+        ahead = np.roll(rim, -1, axis=0) - rim
+        z = ahead[:, 0] + 1j * ahead[:, 1]
+        bends: Flags = np.abs(np.degrees(np.angle(z / np.roll(z, 1)))) > tolerances.STRAIGHT_DEG
+        return bends
+
+    def _is_mouth(self) -> Flags:
+        """Tell at which vertices an inner cut comes out."""
+        nodes = self.asked.slits.node[self.asked.laid.edges]
+        mouths: Flags = np.isin(self.loop, nodes[self.asked.has(Assignment.C)])
+        return mouths
+
+    def _at(self, place: float) -> Floats:
+        """Return the point (2,) at so many mm along the outline."""
+        rim = self.asked.spots[np.append(self.loop, self.loop[0])]
+        return np.array([np.interp(place, self._along, rim[:, k]) for k in (0, 1)])
 
     @property
     def _room(self) -> float:

@@ -29,6 +29,7 @@ _SUPERFLUOUS = {
     Gate.FLIP: "The sheet is turned over here, and the face stays the same.",
     Gate.LOAD: "A new sheet is loaded here, with the work on the last one half done.",
     Gate.RE_REGISTER: "A sheet comes back here that was never left.",
+    Gate.REMOVE: "The sheet is taken off here, before this set-up has been done.",
 }
 
 
@@ -120,6 +121,11 @@ def _gate_findings(plan: Plan, setups: list[tuple[Face, SetUp]]) -> list[Finding
         for gate, text in _SUPERFLUOUS.items():
             if gate in setup.gates and gate not in needed:
                 found.append(_error("wrong-gate", f"set-up {setup.number}", text))
+        found += [
+            _error("wrong-gate", f"set-up {setup.number}", f"The gate {gate!s} stands there twice.")
+            for gate in needed
+            if setup.gates.count(gate) > 1
+        ]
     return found
 
 

@@ -11,11 +11,13 @@ import numpy as np
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.passes import Face, Fit, Plan, ProgramFile, Role
 from foldmill_fabricate.verify import settings, tolerances
+from foldmill_fabricate.verify.copies import prove_turns
 from foldmill_fabricate.verify.cover import pairs, pieces, uncovered
 from foldmill_fabricate.verify.drawing import Drawing
 from foldmill_fabricate.verify.interpreter import Trace
 from foldmill_fabricate.verify.languages import replay
 from foldmill_fabricate.verify.limits import outside
+from foldmill_fabricate.verify.nesting import prove_nesting
 from foldmill_fabricate.verify.offsets import wrong_offset
 from foldmill_fabricate.verify.planned import SUFFIXES, Planned, at, planned, program_files
 from foldmill_fabricate.verify.pulls import pushed
@@ -132,7 +134,8 @@ def _drawing_findings(
         return [cause.finding(replay.file.name)]
     elsewhere = _elsewhere(replay, strokes)
     found = [*elsewhere.values(), *drawing.findings(set(elsewhere)), *_dips(replay)]
-    return found + _tool_findings(plan, drawing) + _order_findings(drawing)
+    found += [*_tool_findings(plan, drawing), *_order_findings(drawing)]
+    return found or _lift_findings(plan, drawing)
 
 
 def _elsewhere(replay: Replay, strokes: Sequence[Planned]) -> dict[int, Finding]:
@@ -218,5 +221,28 @@ def _stroke_order(drawing: Drawing, sequence: Sequence[int]) -> list[Finding]:
     first = list(dict.fromkeys(sequence))
     if first == sorted(first):
         return []
+    # for most strokes any order will do; not for what is cut loose, nor for copies
+    drawn = [drawing.strokes[k] for k in first]
+    spoilt = [*prove_nesting(drawn), *prove_turns(drawn)]
     text = "The strokes are not drawn in the plan's order."
-    return [Finding("stroke-order", Severity.WARNING, drawing.name, text)]
+    return spoilt or [Finding("stroke-order", Severity.WARNING, drawing.name, text)]
+
+
+def _lift_findings(plan: Plan, drawing: Drawing) -> list[Finding]:
+    """Name the first stroke in which the tool is lifted: set down again it leaves a bridge.
+
+    Where a sheet is only pulled, or a blade turned out of its groove, that is how it is done.
+    """
+    if plan.machine.bed.pull:
+        return []
+    owner = drawing.strokes_of_lines
+    times = np.bincount(owner[owner >= 0], minlength=len(drawing.strokes)).tolist()
+    broken = [k for k, n in enumerate(times) if n > 1 and not drawing.strokes[k].setup.swivel_force]
+    if not broken:
+        return []
+    stroke = drawing.strokes[broken[0]]
+    more = f" So it is in {len(broken) - 1} more strokes." if len(broken) > 1 else ""
+    text = f"The tool is lifted and set down again within this stroke, {times[broken[0]] - 1} "
+    where = f"{drawing.name}, {stroke} at {at(stroke.points[0])}"
+    text += f"times; its repeats are one motion, and what is begun anew tends to hold.{more}"
+    return [_error("lifted-within", where, text)]

@@ -186,8 +186,20 @@ def _same(these: Floats, those: Floats) -> bool:
 def _witness_findings(strokes: Sequence[Planned], part: Any) -> list[Finding]:
     import shapely
 
-    return [
+    found = [
         _error("witness-on-part", f"{stroke} at {at(stroke.points[0])}", "It lies on the part.")
         for stroke in strokes
         if shapely.LineString(stroke.points).intersects(part)
     ]
+    if strokes and _looks_alike([stroke.points for stroke in strokes]):
+        where = f"witness mark at {at(strokes[0].points[0])}"
+        text = "It looks alike turned or mirrored, and does not tell how the sheet lies."
+        found.append(_error("witness-symmetric", where, text))
+    return found
+
+
+def _looks_alike(lines: Sequence[Floats]) -> bool:
+    """Tell whether a mark looks the same mirrored either way, or turned by half a turn."""
+    spots = np.vstack([each for line in lines for each in (line, (line[1:] + line[:-1]) / 2)])
+    spots = spots - (spots.min(axis=0) + spots.max(axis=0)) / 2
+    return any(_same(spots * ways, spots) for ways in ((-1, 1), (1, -1), (-1, -1)))

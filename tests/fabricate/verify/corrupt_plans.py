@@ -180,12 +180,29 @@ def nobody_is_told_to_turn_the_sheet(plan: Plan) -> Plan:
 
 
 def another_sheet_is_loaded_half_way(plan: Plan) -> Plan:
+    return _asked_too(plan, Gate.LOAD, -1)
+
+
+def the_sheet_is_turned_over_and_back(plan: Plan) -> Plan:
+    return _asked_too(plan, Gate.FLIP, 0)
+
+
+def the_sheet_is_taken_off_before_its_outline_is_cut(plan: Plan) -> Plan:
+    return _asked_too(plan, Gate.REMOVE, -1)
+
+
+def _asked_too(plan: Plan, gate: Gate, place: int) -> Plan:
+    """Put a gate before one of the set-ups of the reverse."""
     front, reverse = plan.passes
-    last = reverse.setups[-1]
-    gates = (Gate.LOAD, *last.gates)
-    setups = (*reverse.setups[:-1], last.model_copy(update={"gates": gates}))
-    changed = reverse.model_copy(update={"setups": setups})
+    setups = list(reverse.setups)
+    gates = (gate, *setups[place].gates)
+    setups[place] = setups[place].model_copy(update={"gates": gates})
+    changed = reverse.model_copy(update={"setups": tuple(setups)})
     return plan.model_copy(update={"passes": (front, changed)})
+
+
+def the_witness_mark_is_a_bar(plan: Plan) -> Plan:
+    return _edited(Role.WITNESS, lambda op: _with_strokes(op, op.strokes[:1]))(plan)
 
 
 def scores_cut_through(plan: Plan) -> Plan:
@@ -262,6 +279,9 @@ PLANS: dict[Callable[[Plan], Plan], str] = {
     the_sheet_is_turned_about_its_edge: "flip-axis",
     nobody_is_told_to_turn_the_sheet: "missing-gate",
     another_sheet_is_loaded_half_way: "wrong-gate",
+    the_sheet_is_turned_over_and_back: "wrong-gate",
+    the_sheet_is_taken_off_before_its_outline_is_cut: "wrong-gate",
+    the_witness_mark_is_a_bar: "witness-symmetric",
     scores_cut_through: "score-depth",
     the_witness_mark_is_left_out: "witness-missing",
     the_holes_are_left_out: "holes-missing",

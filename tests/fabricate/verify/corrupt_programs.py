@@ -199,6 +199,21 @@ def a_tie_is_cut_through(job: Job) -> Job:
     return with_part(job, name, part, [*one[: len(one) // 6 + 1], two[0]])
 
 
+def a_score_is_lifted_before_it_is_repeated(job: Job) -> Job:
+    return _lifted(job, Role.SCORE, Face.REVERSE)
+
+
+def a_hole_is_cut_in_two_goes(job: Job) -> Job:
+    return _lifted(job, Role.HOLE, Face.FRONT)
+
+
+def _lifted(job: Job, role: Role, face: Face) -> Job:
+    name, part = locate(job, role, face)
+    stroke = stroke_of(job, name, part)
+    half = len(stroke) // 2
+    return with_part(job, name, part, stroke[: half + 1], "", stroke[half:])
+
+
 def a_program_is_edited(job: Job) -> Job:
     name = files_of(job.plan)[0].name
     return Job(job.plan, job.pattern, {**job.programs, name: job.programs[name] + b"\n"})
@@ -244,6 +259,8 @@ PROGRAMS: dict[Callable[[Job], Job], str] = {
     a_stroke_is_moved_by_a_twentieth_of_a_mm: "moved",
     a_line_is_extra: "extra-line",
     a_tie_is_cut_through: "extra-line",
+    a_score_is_lifted_before_it_is_repeated: "lifted-within",
+    a_hole_is_cut_in_two_goes: "lifted-within",
     a_program_is_edited: "edited",
     a_program_is_missing: "missing-program",
     the_tool_is_wrong: "wrong-tool",

@@ -9,6 +9,7 @@ from functools import cache
 import pytest
 import stools
 from fabricate.plan.test_copies import kite
+from fabricate.verify.corrupt_programs import locate, read, with_program, written
 from fabricate.verify.square_job import Job, emit, recorded
 from fabricate.verify.test_corruptions import errors, sentence, verified
 
@@ -188,3 +189,12 @@ def test_copies_with_inner_cuts_and_slits_are_proved_too(count: int) -> None:
     told = [str(finding) for finding in result.findings if finding.code == "missing-cut"]
     assert told
     assert all(f"of copy {count} at" in each for each in told)
+
+
+def test_copies_that_a_program_cuts_by_turns_are_found() -> None:
+    """All is drawn, but cutting comes back to a copy that was left half cut."""
+    good = job()
+    name, first = locate(good, Role.CUT_OUTER, Face.REVERSE)
+    parts = read(good.programs[name])
+    parts[first], parts[-2] = parts[-2], parts[first]
+    assert errors(verified(with_program(good, name, written(parts)))) == {"order"}
