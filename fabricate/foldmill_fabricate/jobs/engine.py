@@ -30,7 +30,7 @@ _LOOK = 0.5
 """s between two looks for jobs that were submitted."""
 _POLL = 0.25
 """s between two looks of a queue for its next turn."""
-_OLD = 50
+_OLD = 20
 """Turns that have ended and are kept, at most."""
 _PENDING = ["ENQUEUED", "PENDING", "DELAYED"]
 PLANNING = "planning"

@@ -10,7 +10,7 @@ from fabricate.jobs.workshop import forks
 
 from foldmill_fabricate.jobs.engine import Engine
 
-TURNS = 70
+TURNS = 22
 
 
 def give_turns(file: Path, done: Path) -> None:
@@ -22,14 +22,14 @@ def give_turns(file: Path, done: Path) -> None:
         return ""
 
     def due() -> dict[str, int]:
-        return {"plotter-a": min(20, TURNS - len(taken))}
+        return {"plotter-a": min(5, TURNS - len(taken))}
 
     engine = Engine(f"sqlite:///{file}", "here", {"plotter-a": (take, lambda _q, _j: None)}, due)
     engine.start()
     end = time.monotonic() + 40
     while len(taken) < TURNS and time.monotonic() < end:
         time.sleep(0.05)
-    time.sleep(1.5)
+    time.sleep(1.0)
     engine.stop()
     done.write_text(str(len(taken)))
 
