@@ -113,6 +113,9 @@ def work(into: Path, material: str, machine: str, score: str | None, cut: str | 
         blind = used.model_copy(update={"serial": slow})
         with open_port("sim://paced?machine=generic-hpgl-600&answers=no", blind) as port:
             assert send(b"IN;PU40,40;PD80,80;PU;", port, blind).bytes
+        told = shelf.machine("graphtec-summa-like")
+        with open_port("sim://graphtec-summa-like", told) as port:
+            assert send(b"IN;PU40,40;PD80,80;PU;", port, told).bytes
         folder.write(fold, plan, into, ["hpgl"])
         holes = [(hole.x, hole.y) for hole in plan.holes]
         marks = seen_by_machine(plan, Face.REVERSE, holes).tolist()

@@ -28,6 +28,9 @@ _FEW = 5
 _LOOK = 0.25
 """s between two looks at a port while nothing else is to be done."""
 
+_LAST_WORDS = 0.3
+"""s for which a stopped machine is still heard, so that the stop itself is not lost."""
+
 BY_HAND = "Stop the machine by hand: it may still be cutting what it has been given."
 
 
@@ -152,9 +155,21 @@ class Session:
             unsent = self.unsent()
             self.port.reset_output_buffer()
             self._lift_xoff()
-            return self.abort(unsent)
+            told = self.abort(unsent)
+            self._see_off()
+            return told
         except Exception:  # termios has an error of its own; whatever it is, a person must act
             return BY_HAND
+
+    def _see_off(self) -> None:
+        """Let the last bytes arrive: a connection that closes upon unread answers is reset.
+
+        What was under way to the machine is dropped then, and it goes on with the tool down.
+        """
+        end = self.clock.now() + _LAST_WORDS
+        while self.clock.now() < end:
+            self.port.read(self.port.in_waiting)
+            self.clock.sleep(_LAST_WORDS / 6)
 
     def abort(self, unsent: int | None) -> str:
         """Stop a machine that cannot drop what it holds: lift the tool where nothing is half-sent.

@@ -20,6 +20,7 @@ from soaking import Soak
 from foldmill_fabricate.jobs import JobState
 from foldmill_fabricate.plotter.simulator import faults
 
+FAULTS = ("disconnect@700:2s", "power@5strokes:1s", "silence@700:20s")
 KILLS = 3
 """of one sheet"""
 WHOLE = 201
@@ -111,17 +112,17 @@ def test_a_service_that_is_told_to_end_stops_the_machine_and_waits_for_a_word(
         shop.check_ledger()
 
 
-@pytest.mark.parametrize("fault", ["disconnect@700:2s", "power@5strokes:1s", "silence@700:20s"])
 def test_when_the_machine_fails_the_job_asks_and_is_finished_on_a_word(
-    tmp_path: Path, fault: str
+    tmp_path: Path, soak: Soak
 ) -> None:
     """The cable is out, its mains fail, it hangs: no job ends by that, and nothing is left out."""
-    with workshop(tmp_path) as shop:
-        shop.simulator.fail(faults.parse(fault))
-        shop.run()
-        shop.check_ledger()
-        assert shop.at.job(shop.job).state is JobState.DONE, shop.log()
-        missing, _ = shop.difference()
-        assert missing == Counter()
-        asked = [one.what for one in shop.at.history(shop.job)]
-        assert {"asks: decide", "asks: trouble"} & {*asked}
+    for number, fault in enumerate(FAULTS[: soak.size(1, len(FAULTS))]):
+        with workshop(tmp_path / str(number)) as shop:
+            shop.simulator.fail(faults.parse(fault))
+            shop.run()
+            shop.check_ledger()
+            assert shop.at.job(shop.job).state is JobState.DONE, shop.log()
+            missing, _ = shop.difference()
+            assert missing == Counter()
+            asked = [one.what for one in shop.at.history(shop.job)]
+            assert {"asks: decide", "asks: trouble"} & {*asked}
