@@ -23,6 +23,7 @@ import time
 from dataclasses import dataclass
 
 from foldmill import installed
+from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.hooks import MACHINES
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import RealClock
@@ -95,7 +96,8 @@ def drive(
 
 
 def designs(stop: object) -> None:
-    """Compute designs, again and again."""
+    """Compute designs, again and again, at the low priority at which the service computes."""
+    step_aside()
     family = installed().design("rotational")
     params = family.preset(next(iter(family.presets)))
     while not stop.is_set():  # type: ignore[attr-defined]

@@ -6,7 +6,6 @@ Planning takes seconds to minutes of a processor; machines at work must not wait
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -19,6 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from foldmill.errors import FoldmillError, InvalidInput
 from foldmill.files import fence_process
 from foldmill.refusals import explain
+from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.errors import Leave
 from foldmill_fabricate.jobs.values import Order
@@ -124,8 +124,7 @@ def _judge(told: bytes, code: int) -> None:
 
 def main(folder: str) -> None:
     """Carry out the order on standard input and say on standard output how that ended."""
-    if hasattr(os, "nice"):
-        os.nice(10)
+    step_aside()
     _limit()
     fence_process(None)  # an order comes from elsewhere: it names no file of this computer
     refused = ""

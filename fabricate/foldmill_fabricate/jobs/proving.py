@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import subprocess
 import sys
 import time
@@ -15,6 +14,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from foldmill.errors import FoldmillError
+from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.sending import prove
 from foldmill_fabricate.verify import JobFiles, read_folder
@@ -72,8 +72,7 @@ def digest(files: JobFiles) -> str:
 
 def main(path: str) -> None:
     """Prove a folder and say on standard output how that ended."""
-    if hasattr(os, "nice"):
-        os.nice(10)
+    step_aside()
     told = {"digest": "", "refused": ""}
     try:
         files = read_folder(path)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate import remaking
+from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.choosing import marks_on_record
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.places import Places
@@ -70,8 +70,7 @@ def plan_rest(places: Places, origin: Path, folder: Path, sheet: str, said: Rest
 
 def main() -> None:
     """Plan what standard input says, and say on standard output how that ended."""
-    if hasattr(os, "nice"):
-        os.nice(10)
+    step_aside()
     order = json.loads(sys.stdin.read())
     places = Places(Path(order["root"]), order["database"])
     said, refused = Rest.model_validate(order["said"]), ""

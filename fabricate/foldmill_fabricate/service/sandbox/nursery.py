@@ -19,11 +19,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.service.sandbox.child import live
 from foldmill_fabricate.service.sandbox.limits import Limits
 
-NICE = 10
-"""Streaming must never wait for computing."""
 GRACE = 0.5
 """s beyond a limit of wall time, within which processor time may end the child with its reason."""
 
@@ -113,7 +112,7 @@ def report(said: dict[str, Any]) -> None:
 
 def main() -> None:
     """Import the modules named on the command line, then obey."""
-    os.nice(NICE)
+    step_aside()
     for name in sys.argv[1:]:
         warm = getattr(import_module(name), "warm", None)
         if warm is not None:
