@@ -149,7 +149,7 @@ def _refuse_many(drawing: Drawing) -> None:
 def _roles(drawing: Drawing, pens: Mapping[int, Use]) -> dict[int, Role | None]:
     silent = [pen for pen in drawing.pens if pen not in pens]
     if silent:
-        told = ", ".join(f"pen {pen} draws {len(drawing.pens[pen])} lines" for pen in silent)
+        told = ", ".join(f"pen {pen} draws {_count(len(drawing.pens[pen]))}" for pen in silent)
         raise CannotPlan(
             f"Nobody has said what is to be made of these: {told}. Say --pen {silent[0]}=score, "
             "=cut, =inner or =skip."
@@ -265,3 +265,7 @@ def _findings(drawing: Drawing) -> Iterator[Finding]:
     yield Finding("no-pattern", Severity.INFO, "plan", text)
     for remark in drawing.remarks:
         yield Finding("not-followed", Severity.INFO, drawing.name, remark)
+
+
+def _count(lines: int) -> str:
+    return f"{lines} line" if lines == 1 else f"{lines} lines"
