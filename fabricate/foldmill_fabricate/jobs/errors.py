@@ -3,9 +3,12 @@
 ::
 
     FoldmillError
-    └── JobRefused (InvalidInput)    what a job, or its place in the queue, does not allow
-        ├── NoSuchJob (LookupError)  an id that nothing has
-        └── Clash                    a key, or an answer, that was used before for something else
+    ├── JobRefused (InvalidInput)    what a job, or its place in the queue, does not allow
+    │   ├── NoSuchJob (LookupError)  an id that nothing has
+    │   └── Clash                    a key, or an answer, that was used before for something else
+    ├── Leave                        the process ends; the job is taken up again
+    ├── Cancelled                    a person ends the job
+    └── GivenUp                      its sheet is given up, and no other is wanted
 """
 
 from __future__ import annotations
