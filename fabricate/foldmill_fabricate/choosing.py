@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from foldmill_fabricate.passes import XY, Face, Plan, ProgramFile, Remakes
+from foldmill_fabricate.marks import fit_marks
+from foldmill_fabricate.passes import XY, Face, Fit, Plan, ProgramFile, Remakes
 from foldmill_fabricate.plotter.errors import LedgerRefused
 from foldmill_fabricate.plotter.languages import made_ready
 from foldmill_fabricate.plotter.ledger import GoesOn, Ledger, Program, SheetRecord, State
@@ -42,6 +43,12 @@ def marks_on_record(ledger: Ledger, sheet: str, plan: Plan) -> tuple[XY, ...]:
         return tuple((float(x), float(y)) for x, y in told[-1])
     before = plan.remakes
     return marks_on_record(ledger, before.sheet, before.origin) if before else ()
+
+
+def fit_on_record(ledger: Ledger, sheet: str, plan: Plan) -> Fit | None:
+    """Return how the reverse of a sheet lay, where its marks were measured."""
+    marks = marks_on_record(ledger, sheet, plan)
+    return fit_marks(plan, marks).fit if marks else None
 
 
 def _laid(ledger: Ledger, job: Job, goes_on: GoesOn | None = None) -> SheetRecord:

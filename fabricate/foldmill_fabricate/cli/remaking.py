@@ -10,7 +10,7 @@ from foldmill import FoldmillError
 from foldmill_fabricate.cli.making import formats_for
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.passes import Fit, Plan
+    from foldmill_fabricate.passes import Plan
     from foldmill_fabricate.plotter.ledger import Ledger, SheetRecord
 
 
@@ -25,20 +25,22 @@ def rest(
 ) -> Plan:
     """Plan what is missing on a sheet, write it into a folder, and return the plan."""
     from foldmill_fabricate import remaking
-    from foldmill_fabricate.sending import open_job
 
-    sheet = ledger.sheet(name)
-    path = _folder(ledger, sheet, job)
-    origin = open_job(path)  # proved again: nothing is planned from an edited folder
-    said = [remaking.read_spoken(each) for each in doubtful]
-    said += [remaking.read_spoken(each, remaking.Fate.HALF) for each in half]
-    planned = remaking.remake(origin.plan, sheet, said, _fit(ledger, sheet, origin.plan))
-    formats = formats_for(to, planned.machine)
-    return remaking.write_remake(planned, path, output, formats)
+    path = _folder(ledger, ledger.sheet(name), job)
+    return remaking.plan_rest(
+        ledger,
+        name,
+        path,
+        output,
+        doubtful,
+        half,
+        formats=lambda machine: formats_for(to, machine),
+    )
 
 
 def draw(ledger: Ledger, name: str, output: Path, job: Path | None) -> None:
     """Draw both faces of a sheet as its record says."""
+    from foldmill_fabricate.choosing import fit_on_record
     from foldmill_fabricate.files import write_whole
     from foldmill_fabricate.pictures import as_cut_picture
     from foldmill_fabricate.verify import read_folder
@@ -47,7 +49,7 @@ def draw(ledger: Ledger, name: str, output: Path, job: Path | None) -> None:
         raise FoldmillError(f"--output {output}: a sheet as cut is drawn as a PNG; name one.")
     sheet = ledger.sheet(name)
     plan = read_folder(_folder(ledger, sheet, job)).plan
-    write_whole(output, as_cut_picture(plan, sheet, _fit(ledger, sheet, plan)))
+    write_whole(output, as_cut_picture(plan, sheet, fit_on_record(ledger, sheet.id, plan)))
 
 
 def _folder(ledger: Ledger, sheet: SheetRecord, job: Path | None) -> Path:
@@ -59,12 +61,3 @@ def _folder(ledger: Ledger, sheet: SheetRecord, job: Path | None) -> Path:
             "--job DIR."
         )
     return job or Path(known)
-
-
-def _fit(ledger: Ledger, sheet: SheetRecord, plan: Plan) -> Fit | None:
-    """Return how the reverse of a sheet lay, where its marks were measured."""
-    from foldmill_fabricate.choosing import marks_on_record
-    from foldmill_fabricate.marks import fit_marks
-
-    marks = marks_on_record(ledger, sheet.id, plan)
-    return fit_marks(plan, marks).fit if marks else None

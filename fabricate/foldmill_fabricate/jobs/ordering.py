@@ -5,8 +5,6 @@ Planning takes seconds to minutes of a processor; machines at work must not wait
 
 from __future__ import annotations
 
-import json
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -15,19 +13,17 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from foldmill.errors import FoldmillError, InvalidInput
+from foldmill.errors import InvalidInput
 from foldmill.files import fence_process
 from foldmill.refusals import explain
-from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.jobs.elsewhere import Silent, done, serve
 from foldmill_fabricate.jobs.errors import Leave
 from foldmill_fabricate.jobs.values import Order
 
 Size = tuple[float, float]
 _MOST_MEMORY, _MOST_SECONDS = 4 << 30, 3600
 """bytes, and s of a processor, that an order may take."""
-_LOOK = 0.2
-"""s between two looks at a process."""
 
 
 class Options(BaseModel):
@@ -91,52 +87,36 @@ def carry_out_elsewhere(
 
     heed : called again and again meanwhile; what it raises ends the planning.
     """
-    command = [sys.executable, "-m", "foldmill_fabricate.jobs.ordering", str(folder)]
-    pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL) as child:
-        try:
-            assert child.stdin is not None
-            child.stdin.write(order.model_dump_json().encode())
-            child.stdin.close()
-            while child.poll() is None:
-                if leaving.wait(_LOOK):
-                    raise Leave("The service ends.")
-                heed()
-        except BaseException:
-            child.kill()
-            raise
-        assert child.stdout is not None
-        _judge(child.stdout.read(), child.returncode)
 
+    def listen() -> None:
+        if leaving.is_set():
+            raise Leave("The service ends.")
+        heed()
 
-def _judge(told: bytes, code: int) -> None:
+    told = {"order": order.model_dump(mode="json"), "folder": str(folder)}
     try:
-        refused = json.loads(told)["refused"]
-    except ValueError:
+        refused = done("foldmill_fabricate.jobs.ordering", told, listen)["refused"]
+    except Silent as end:
         raise CannotPlan(
             f"Planning took more than {_MOST_SECONDS / 3600:g} h of a processor, or was stopped "
-            f"from outside (code {code}). Make the design simpler, or plan it by hand and submit "
-            "the folder."
+            f"from outside (code {end.code}). Make the design simpler, or plan it by hand and "
+            "submit the folder."
         ) from None
     if refused:
         raise CannotPlan(refused)
 
 
-def main(folder: str) -> None:
-    """Carry out the order on standard input and say on standard output how that ended."""
-    step_aside()
+def _carried_out(told: dict[str, Any]) -> dict[str, str]:
+    """Carry out an order, within limits; raises FoldmillError."""
     _limit()
     fence_process(None)  # an order comes from elsewhere: it names no file of this computer
-    refused = ""
     try:
-        carry_out(Order.model_validate_json(sys.stdin.read()), Path(folder))
-    except FoldmillError as error:
-        refused = str(error)
+        carry_out(Order.model_validate(told["order"]), Path(told["folder"]))
     except MemoryError:
-        refused = (
+        raise CannotPlan(
             f"Planning this needs more than {_MOST_MEMORY >> 30} GB of memory; make it simpler."
-        )
-    sys.stdout.write(json.dumps({"refused": refused}))
+        ) from None
+    return {}
 
 
 def _limit() -> None:
@@ -150,4 +130,4 @@ def _limit() -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    serve(_carried_out)

@@ -5,7 +5,6 @@ The plan holds its material and its machine whole, so a job's history has them a
 
 from __future__ import annotations
 
-import hashlib
 import re
 import shutil
 import tempfile
@@ -20,11 +19,6 @@ from foldmill_fabricate.passes import Plan
 _ID = re.compile(r"[0-9a-f]{64}")
 
 
-def plan_id(plan: Plan) -> str:
-    """Return what a plan is known by: the SHA-256 of what it says."""
-    return hashlib.sha256(plan.model_dump_json().encode()).hexdigest()
-
-
 class Plans:
     """The folders of plans; root : made where there is none."""
 
@@ -37,7 +31,7 @@ class Plans:
         Only what plan.json names is kept. Raises CannotSend for a folder that is none.
         """
         plan = _read(folder)
-        name = plan_id(plan)
+        name = plan.digest
         if not (self._root / name).exists():
             self._root.mkdir(parents=True, exist_ok=True)
             draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self._root))

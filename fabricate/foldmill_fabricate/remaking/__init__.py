@@ -7,7 +7,7 @@ what a person says of those in doubt; ``make`` plans the rest; ``write`` makes a
 from foldmill_fabricate.remaking.make import remake
 from foldmill_fabricate.remaking.strokes import Account, Standing, accounts, lying
 from foldmill_fabricate.remaking.words import Fate, Spoken, read_spoken
-from foldmill_fabricate.remaking.write import write_remake
+from foldmill_fabricate.remaking.write import plan_rest, write_remake
 
 __all__ = [
     "Account",
@@ -16,6 +16,7 @@ __all__ = [
     "Standing",
     "accounts",
     "lying",
+    "plan_rest",
     "read_spoken",
     "remake",
     "write_remake",

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate import folder
+from foldmill_fabricate.choosing import fit_on_record
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.profiles import Style
+from foldmill_fabricate.remaking.make import remake
+from foldmill_fabricate.remaking.words import Fate, read_spoken
+from foldmill_fabricate.sending import open_job
 
 
 def write_remake(
@@ -30,3 +36,26 @@ def write_remake(
     else:
         fold = Fold(CreasePattern.from_lines([], [], [], []))
     return folder.write(fold, plan, output, formats, style)
+
+
+def plan_rest(
+    ledger: Ledger,
+    sheet: str,
+    origin: Path,
+    output: Path,
+    doubtful: Sequence[str] = (),
+    half: Sequence[str] = (),
+    formats: Callable[[Machine], Sequence[str]] = lambda machine: ["svg", "dxf", machine.language],
+) -> Plan:
+    """Plan what the ledger says is missing on a sheet, write it into a folder, return the plan.
+
+    origin : the folder that the sheet was begun from; it is proved again, for nothing is planned
+    from an edited one. doubtful, half : what a person says, as ``read_spoken`` reads it. formats :
+    of a machine. Raises CannotSend and CannotPlan.
+    """
+    job = open_job(origin)
+    said = [read_spoken(each) for each in doubtful]
+    said += [read_spoken(each, Fate.HALF) for each in half]
+    fit = fit_on_record(ledger, sheet, job.plan)
+    planned = remake(job.plan, ledger.sheet(sheet), said, fit)
+    return write_remake(planned, origin, output, formats(planned.machine))
