@@ -6,10 +6,11 @@ the queue of jobs and the service make the same folder of the same bytes.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from foldmill.errors import InvalidInput
 from foldmill.finding import Severity
@@ -23,8 +24,31 @@ from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify import verify_folder
 from foldmill_fabricate.writers import writer
 
-_Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^/\\\x00-\x1f\x7f-\x9f]+$")]
-_Pen = Annotated[str, Field(pattern=r"^[0-9]{1,2}=(score|inner|cut|skip)$")]
+_NAME = r"^[^/\\\x00-\x1f\x7f-\x9f]+$"
+_PEN = r"^[0-9]{1,2}=(score|inner|cut|skip)$"
+
+
+def _like(pattern: str, sentence: str) -> AfterValidator:
+    """Return a check of a word, with a sentence that a person understands."""
+
+    def check(word: str) -> str:
+        if not re.fullmatch(pattern, word):
+            raise ValueError(sentence)
+        return word
+
+    return AfterValidator(check)
+
+
+_Name = Annotated[
+    str,
+    Field(min_length=1, max_length=100, json_schema_extra={"pattern": _NAME}),
+    _like(_NAME, "a drawing's name has no slashes and is no path."),
+]
+_Pen = Annotated[
+    str,
+    Field(max_length=12, json_schema_extra={"pattern": _PEN}),
+    _like(_PEN, f"write PEN=USE, such as 1=cut; uses are {', '.join(Use)}."),
+]
 _Slug = Annotated[str, Field(min_length=1, max_length=100)]
 _Side = Annotated[float, Field(gt=0, lt=1e5)]
 
