@@ -24,6 +24,7 @@ import httpx
 from pydantic import TypeAdapter
 
 from foldmill_fabricate.files import write_all
+from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.values import (
     Event,
@@ -163,6 +164,11 @@ class Client:
             status = self.plan_status(status.id)
         return answers.done(status)
 
+    def plan_drawing(self, content: bytes, asked: Asked) -> models.KeptPlan:
+        """Have an HP-GL drawing from elsewhere planned, proved and kept, as ``asked`` says."""
+        said = asked.model_dump(mode="json", exclude_defaults=True)
+        return self._send(models.KeptPlan, "/plans/drawn", content, said)
+
     def verification(self, digest: str) -> models.Verification:
         """Verify a plan on a virtual sheet."""
         return self._get(models.Verification, f"/plans/{digest}/verification")
@@ -177,6 +183,10 @@ class Client:
     def keep(self, folder: Path) -> str:
         """Keep a job folder; return the id of its plan."""
         return self._send(models.KeptPlan, "/plans/kept", pack(folder), {}).plan
+
+    def keep_drawing(self, content: bytes, asked: Asked) -> str:
+        """Have an HP-GL drawing planned and kept; return the id of its plan."""
+        return self.plan_drawing(content, asked).plan
 
     def submit(self, asked: Submission, who: str = "") -> JobRecord:
         """Put a job in the queue of its plotter."""

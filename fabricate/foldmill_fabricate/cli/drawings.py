@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from foldmill import FoldmillError
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.foreign import Use
+    from foldmill_fabricate.foreign import Asked, Use
     from foldmill_fabricate.machines import Machine
     from foldmill_fabricate.materials import Material
     from foldmill_fabricate.passes import Plan
@@ -54,18 +54,52 @@ def planned(
 
     Raises what ``read`` and ``plan_drawing`` raise.
     """
-    from foldmill_fabricate.foreign import limits, plan_drawing, read
+    from foldmill_fabricate.foreign import plan_drawing, read
 
-    try:
-        with file.open("rb") as opened:
-            data = opened.read(limits.BYTES + 1)
-    except OSError as error:
-        raise FoldmillError(f"{file}: {error.strerror or error}.") from None
+    data = content(file)
     uses = dict(_pen(each) for each in pens)
     if len(uses) < len(pens):
         raise FoldmillError("--pen says two things of one pen; say one.")
     drawing = read(data, file.name)
     return plan_drawing(drawing, uses, material, machine, **asked)
+
+
+def content(file: Path) -> bytes:
+    """Return the bytes of a drawing, at most one more than is read of any."""
+    from foldmill_fabricate.foreign import limits
+
+    try:
+        with file.open("rb") as opened:
+            return opened.read(limits.BYTES + 1)
+    except OSError as error:
+        raise FoldmillError(f"{file}: {error.strerror or error}.") from None
+
+
+def asked(
+    file: Path, pens: Sequence[str], material: str, machine: str, options: Mapping[str, Any]
+) -> Asked:
+    """Return what is said of a drawing that becomes a job; options : of planning, by name."""
+    from pydantic import ValidationError
+
+    from foldmill.refusals import explain
+    from foldmill_fabricate.foreign import Asked
+
+    said = [f"{number}={use.value}" for number, use in map(_pen, pens)]
+    head: dict[str, Any] = {
+        "name": file.name,
+        "pen": said,
+        "material": material,
+        "machine": machine,
+    }
+    if unknown := sorted({*options} - {"score", "outline", "blank", "carrier"}):
+        raise FoldmillError(
+            f"--option {unknown[0]} is not for an HP-GL drawing, which is made as it is drawn: "
+            "score, outline, blank and carrier are."
+        )
+    try:
+        return Asked.model_validate({**head, **options})
+    except ValidationError as error:
+        raise FoldmillError(explain(error)) from None
 
 
 def _pen(text: str) -> tuple[int, Use]:

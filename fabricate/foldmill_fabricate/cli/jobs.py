@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -34,7 +33,12 @@ def add_to(app: typer.Typer) -> None:
 
 @jobs.command()
 def submit(
-    what: Annotated[str, typer.Argument(help="A job folder of `plan`, or a family of designs.")],
+    what: Annotated[
+        str,
+        typer.Argument(
+            help="A job folder of `plan`, an HP-GL drawing (.plt, .hpgl), or a family of designs."
+        ),
+    ],
     on: Annotated[str, typer.Option(help="The plotter's name.")],
     copies: Annotated[int, typer.Option(min=1, help="How many sheets.")] = 1,
     priority: Annotated[int, typer.Option(help="Higher ones are made first.")] = 0,
@@ -45,30 +49,27 @@ def submit(
     param: Annotated[
         list[str] | None, typer.Option(help="NAME=VALUE of the family; repeatable.")
     ] = None,
-    material: Annotated[str, typer.Option(help="For a family: a slug of `materials`.")] = "pp-0.75",
+    material: Annotated[
+        str, typer.Option(help="Of a family or drawing: a slug of `materials`.")
+    ] = "pp-0.75",
     option: Annotated[
         list[str] | None, typer.Option(help="NAME=VALUE of planning, as relief=needed; repeatable.")
+    ] = None,
+    pen: Annotated[
+        list[str] | None,
+        typer.Option(help="Of an HP-GL drawing: PEN=score, cut, inner or skip; for each pen."),
     ] = None,
     plotter: More = None,
     who: Who = "",
     as_json: AsJson = False,
 ) -> None:
-    """Put a job in the queue of a plotter: a planned folder, or a design to be planned."""
-    from foldmill_fabricate.cli.ordering import ordered
+    """Put a job in the queue of a plotter: a planned folder, a drawing, a design to be planned."""
+    from foldmill_fabricate.cli.ordering import Words, wanted
 
     desk, works = _desk(plotter)
-    folder = Path(what)
+    words = Words(preset, param or [], material, option or [], pen or [])
     head: dict[str, Any] = {"plotter": on, "copies": copies, "priority": priority, "key": key}
-    if (folder / "plan.json").is_file():
-        if preset or param or option:
-            raise FoldmillError("--preset, --param and --option are of a design, not of a folder.")
-        asked = _submission(plan=desk.keep(folder), **head)
-    elif folder.exists():
-        raise FoldmillError(f"{what} is no job folder: plan it first, or name a family.")
-    else:
-        machine = desk.machine_of(on)
-        order = ordered(what, preset, param or [], material, machine, option or [])
-        asked = _submission(design=order, **head)
+    asked = _submission(**wanted(desk, what, on, words), **head)
     job = desk.submit(asked, who)
     say(as_json, job.model_dump(mode="json"), _line(job))
     if not works and not as_json:

@@ -1,16 +1,60 @@
-"""A design as it is ordered on the command line: NAME=VALUE pairs."""
+"""What becomes a job as it is named on the command line: a folder, a drawing, or a design."""
 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from foldmill import FoldmillError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from foldmill_fabricate.jobs import Order
+    from foldmill_fabricate.jobs import Jobs, Order
+
+
+class Words(NamedTuple):
+    """What is said beside the name of what becomes a job."""
+
+    preset: str
+    params: Sequence[str]
+    """NAME=VALUE of a family"""
+    material: str
+    options: Sequence[str]
+    """NAME=VALUE of planning"""
+    pens: Sequence[str]
+    """PEN=USE of a drawing"""
+
+
+def wanted(desk: Jobs, what: str, plotter: str, words: Words) -> dict[str, Any]:
+    """Return ``plan`` or ``design`` of a submission; folders and drawings are kept at once."""
+    from foldmill_fabricate.cli import drawings
+
+    path = Path(what)
+    if drawings.is_drawing(path) and not path.is_dir():
+        return {"plan": _drawn(desk, path, plotter, words)}
+    drawings.refuse_pens(words.pens)
+    if (path / "plan.json").is_file():
+        if words.preset or words.params or words.options:
+            raise FoldmillError("--preset, --param and --option are of a design, not of a folder.")
+        return {"plan": desk.keep(path)}
+    if path.exists():
+        raise FoldmillError(f"{what} is no job folder: plan it first, or name a family.")
+    machine = desk.machine_of(plotter)
+    preset, params, material, options, _ = words
+    return {"design": ordered(what, preset, params, material, machine, options)}
+
+
+def _drawn(desk: Jobs, file: Path, plotter: str, words: Words) -> str:
+    """Have a drawing planned and kept; return the id of its plan."""
+    from foldmill_fabricate.cli import drawings
+
+    if words.preset or words.params:
+        raise FoldmillError("--preset and --param are of a design, not of a drawing.")
+    options, machine = _chosen(words.options), desk.machine_of(plotter)
+    asked = drawings.asked(file, words.pens, words.material, machine, options)
+    return desk.keep_drawing(drawings.content(file), asked)
 
 
 def ordered(
@@ -35,8 +79,12 @@ def ordered(
         params=values.model_dump(mode="json"),
         material=material,
         machine=machine,
-        options={name: _value(name, value) for name, value in map(_pair, options)},
+        options=_chosen(options),
     )
+
+
+def _chosen(options: Sequence[str]) -> dict[str, Any]:
+    return {name: _value(name, value) for name, value in map(_pair, options)}
 
 
 def _pair(text: str) -> tuple[str, str]:

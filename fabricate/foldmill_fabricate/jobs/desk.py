@@ -11,7 +11,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
+from foldmill_fabricate import shelf
 from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.jobs.errors import JobRefused
 from foldmill_fabricate.jobs.judging import judge
 from foldmill_fabricate.jobs.ordering import options
@@ -31,6 +33,10 @@ class Jobs(Protocol):
 
     def keep(self, folder: Path) -> str:
         """Keep a job folder; return the id of its plan."""
+        ...
+
+    def keep_drawing(self, content: bytes, asked: Asked) -> str:
+        """Plan an HP-GL drawing from elsewhere and keep that; return the id of its plan."""
         ...
 
     def submit(self, asked: Submission, who: str = "") -> JobRecord:
@@ -99,6 +105,16 @@ class Desk:
     def keep(self, folder: Path) -> str:
         """Keep a job folder; return the id of its plan."""
         return self.plans.keep(folder)
+
+    def keep_drawing(self, content: bytes, asked: Asked) -> str:
+        """Plan an HP-GL drawing from elsewhere and keep that; return the id of its plan.
+
+        Raises UnknownName for its material or machine, or what ``foreign.make_folder`` raises.
+        """
+        of, on = shelf.material(asked.material), shelf.machine(asked.machine)
+        with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
+            make_folder(content, asked, of, on, Path(place) / "job")
+            return self.plans.keep(Path(place) / "job")
 
     def submit(self, asked: Submission, who: str = "") -> JobRecord:
         """Put a job in the queue of its plotter.

@@ -73,7 +73,8 @@ def _read(folder: Path) -> Plan:
 
 def _copy(plan: Plan, folder: Path, draft: Path) -> None:
     """Copy the files that a plan names; those that prove it must be there."""
-    named = [PLAN, "pattern.fold", *(part.name for part in plan.programs)]
+    pattern = ["pattern.fold"] if plan.whole.source is None else []  # else there is none
+    named = [PLAN, *pattern, *(part.name for part in plan.programs)]
     for name in named:
         if Path(name).name != name or not (folder / name).is_file():
             raise CannotSend(f"{folder} has no {name}: plan it again.")

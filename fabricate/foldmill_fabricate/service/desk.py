@@ -34,6 +34,8 @@ CHECK, VERIFIED = "check.json", "verified.json"
 READING = Limits(seconds=30, memory_mb=1024, file_mb=128)
 DESIGNING = Limits(seconds=60, memory_mb=1024, file_mb=128)
 PLANNING = Limits(seconds=600, memory_mb=2048, file_mb=512)
+DRAWN = Limits(seconds=90, memory_mb=1024, file_mb=128)
+"""Of an HP-GL drawing that is planned: who sends it waits for the answer."""
 
 
 class Desk:

@@ -14,11 +14,12 @@ from typing import Any
 from foldmill import FoldmillError, installed
 from foldmill.errors import InvalidInput, UnknownName
 from foldmill_fabricate import profiles, shelf
+from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.hooks import FORMATS
 from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.service.desk import PATTERN, PLANNING, Desk
+from foldmill_fabricate.service.desk import DRAWN, PATTERN, PLANNING, Desk
 from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
@@ -116,6 +117,19 @@ class Plans:
         said = await self._desk.call("unpack", {}, folder, PLANNING, "The job folder")
         plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
         return KeptPlan.model_validate({**said, "plan": plan})
+
+    async def draw(self, folder: Path, asked: Asked) -> KeptPlan:
+        """Plan, prove and keep the HP-GL drawing that a folder holds as the file ``upload``.
+
+        Raises UnknownName for a material or machine, or what the sandbox refuses.
+        """
+        of, on = shelf.material(asked.material), shelf.machine(asked.machine)
+        said = asked.model_dump(mode="json")
+        presets = {"material": of.model_dump(mode="json"), "machine": on.model_dump(mode="json")}
+        arguments = {"asked": said, **presets}
+        told = await self._desk.call("drawn", arguments, folder, DRAWN, "The drawing")
+        plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
+        return KeptPlan.model_validate({**told, "plan": plan})
 
     def file(self, digest: str, name: str) -> Path:
         """Return a file of a plan by the name that its status tells; raises NoSuch."""

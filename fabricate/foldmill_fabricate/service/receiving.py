@@ -15,15 +15,18 @@ _PATIENCE = 60.0
 """s for a body to arrive."""
 
 
-async def receive(request: Request, file: BinaryIO) -> None:
-    """Write a body into a file as it arrives; raises TooLarge, or Forbidden where it stalls."""
+async def receive(request: Request, file: BinaryIO, most: int = MOST_UPLOAD) -> None:
+    """Write a body into a file as it arrives; most : bytes.
+
+    Raises TooLarge, or Forbidden where it stalls.
+    """
     count = 0
     try:
         async with asyncio.timeout(_PATIENCE):
             async for part in request.stream():
                 count += len(part)
-                if count > MOST_UPLOAD:
-                    raise TooLarge(f"The file is larger than {MOST_UPLOAD:,} bytes.")
+                if count > most:
+                    raise TooLarge(f"The file is larger than {most:,} bytes.")
                 file.write(part)
     except TimeoutError:
         raise Forbidden(f"The file had not arrived after {_PATIENCE:g} s.", 408) from None

@@ -17,12 +17,16 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from foldmill_fabricate.service import problems
-from foldmill_fabricate.service.bounds import MOST_JSON, MOST_UPLOAD
+from foldmill_fabricate.service.bounds import MOST_DRAWING, MOST_JSON, MOST_UPLOAD
 from foldmill_fabricate.service.problems import Forbidden, TooLarge
 from foldmill_fabricate.service.tokens import Tokens
 
-UPLOADS = frozenset({"/api/v1/patterns", "/api/v1/plans/kept"})
-"""The paths that take as much as that."""
+UPLOADS = {
+    "/api/v1/patterns": MOST_UPLOAD,
+    "/api/v1/plans/kept": MOST_UPLOAD,
+    "/api/v1/plans/drawn": MOST_DRAWING,
+}
+"""The paths that take more than a request of JSON, and how many bytes."""
 CUSTOM = "x-foldmill"
 """A header of ours, which no page of another site can send without asking."""
 UPLOAD_TYPE = "application/octet-stream"
@@ -125,7 +129,7 @@ def _refuse_large(path: str, headers: Mapping[str, str]) -> None:
     """Raise for a body that is larger than what is read, before any of it is read."""
     if "transfer-encoding" in headers:
         raise Forbidden("Say how long the body is, by Content-Length.", 411)
-    length, most = headers.get("content-length", "0"), MOST_UPLOAD if path in UPLOADS else MOST_JSON
+    length, most = headers.get("content-length", "0"), UPLOADS.get(path, MOST_JSON)
     if not length.isdecimal() or int(length) > most:
         raise TooLarge(
             f"The body has {length[:20]} bytes; at most {most:,} are read here. Leave out what is "

@@ -24,6 +24,7 @@ from foldmill.finding import Finding, Severity
 from foldmill_fabricate import folder as job_folder
 from foldmill_fabricate import pictures, profiles
 from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.importing.reading import read_pattern, require_answers
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -135,8 +136,28 @@ def unpack(folder: Path) -> dict[str, Any]:
         first = next(each for each in found.findings if each.severity is Severity.ERROR)
         raise CannotSend(f"This job folder does not verify, and nothing of it is kept. {first}")
     plan = Plan.model_validate_json((folder / "job" / "plan.json").read_bytes())
+    return _whole_account(plan, folder / "job")
+
+
+def drawn(
+    folder: Path,
+    asked: Mapping[str, Any],
+    material: Mapping[str, Any],
+    machine: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Make ``upload``, HP-GL from elsewhere, into a job folder ``job`` of our own writing.
+
+    Raises what ``foreign.make_folder`` raises.
+    """
+    data = (folder / UPLOAD).read_bytes()
+    of, on = Material.model_validate(material), Machine.model_validate(machine)
+    plan = make_folder(data, Asked.model_validate(asked), of, on, folder / "job")
+    return _whole_account(plan, folder / "job")
+
+
+def _whole_account(plan: Plan, folder: Path) -> dict[str, Any]:
     slugs = {"material": plan.material.slug, "machine": plan.machine.slug}
-    return {**_account(plan, folder / "job"), **slugs}
+    return {**_account(plan, folder), **slugs}
 
 
 def as_cut(folder: Path, job: str, face: str, strokes: as_cuts.Strokes, title: str) -> None:

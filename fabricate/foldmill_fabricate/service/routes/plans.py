@@ -5,9 +5,11 @@ from __future__ import annotations
 from mimetypes import guess_type
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Path, Request, Response
+from fastapi import APIRouter, Depends, Path, Query, Request, Response
 from fastapi.responses import FileResponse
 
+from foldmill_fabricate.foreign import Asked
+from foldmill_fabricate.service.bounds import MOST_DRAWING
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
 from foldmill_fabricate.service.models import (
@@ -35,7 +37,7 @@ Those = Annotated[Plans, Depends(plans)]
 _ACCEPTED: dict[int | str, dict[str, Any]] = {
     202: {"model": PlanStatus, "description": "It is being made; ask for it again."}
 }
-_ZIP: dict[str, Any] = {
+_FILE: dict[str, Any] = {
     "requestBody": {
         "required": True,
         "content": {UPLOAD_TYPE: {"schema": {"type": "string", "format": "binary"}}},
@@ -52,7 +54,7 @@ async def begin(request: PlanRequest, those: Those, _: Submitter, response: Resp
     return status
 
 
-@ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_ZIP)
+@ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
 async def keep(
     request: Request, those: Those, at: Annotated[Desk, Depends(desk)], _: Submitter
 ) -> KeptPlan:
@@ -64,6 +66,25 @@ async def keep(
         with (folder / "upload").open("wb") as file:
             await receive(request, file)
         return await those.keep(folder)
+
+
+@ROUTER.post("/drawn", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
+async def draw(
+    request: Request,
+    those: Those,
+    at: Annotated[Desk, Depends(desk)],
+    _: Submitter,
+    asked: Annotated[Asked, Query()],
+) -> KeptPlan:
+    """Plan an HP-GL drawing from elsewhere: the body is the file, and no byte of it is sent on.
+
+    It is read by a list of what is followed, checked against the machine's limits, written anew by
+    our own writers and verified.
+    """
+    async with at.folder() as folder:
+        with (folder / "upload").open("wb") as file:
+            await receive(request, file, MOST_DRAWING)
+        return await those.draw(folder, asked)
 
 
 @ROUTER.get("", responses=READING)
