@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass, field
-from functools import partial
 from threading import Event, Thread
 
 from foldmill.errors import FoldmillError
@@ -20,7 +19,7 @@ from foldmill_fabricate.jobs.hands import LOOK, Hands
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter
-from foldmill_fabricate.jobs.proving import prove_elsewhere
+from foldmill_fabricate.jobs.proving import Elsewhere
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
@@ -162,8 +161,8 @@ class _Work:
         """Prove the plan, once: what was proved is held here, and is what is sent."""
         if self.opened is None:
             folder = self.shop.plans.folder(self.job.plan)
-            prover = partial(prove_elsewhere, heed=self.hands.heed)
-            self.opened = open_job(folder, prover=prover)
+            elsewhere = Elsewhere(self.hands.heed)
+            self.opened = open_job(folder, prover=elsewhere.prove, fitter=elsewhere.fit)
         return self.opened
 
     def _lay(self, opened: Job) -> str:
