@@ -32,6 +32,7 @@ from foldmill_fabricate.plotter.ledger import (
     account,
     ledger_file,
 )
+from foldmill_fabricate.plotter.ledger.guarding import guarded
 from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.transcript import recorded
@@ -270,19 +271,24 @@ class _Work:
         start = recovery.start_of(job, self.part, record)
         self.run = self.ledger.claim(self.sheet, self.number, self.bench.device)
         try:
-            return sender.send(
-                job.programs[self.part.name],
-                self.bench.port,
-                job.plan.machine,
-                progress=tell,
-                start=start,
-                book=self.run,
-                wish=self.bench.wish,
-            )
+            with guarded(self.run, self.bench.wish) as wish:
+                return sender.send(
+                    job.programs[self.part.name],
+                    self.bench.port,
+                    job.plan.machine,
+                    progress=tell,
+                    start=start,
+                    book=self.run,
+                    wish=wish,
+                )
         except Fenced:
             raise
         except BaseException as error:
-            self.run.end(State.INTERRUPTED, str(error) or type(error).__name__)
+            said = str(error) or type(error).__name__
+            try:
+                self.run.end(State.INTERRUPTED, said)
+            except Fenced as lost:
+                raise type(lost)(f"{lost} {said}") from error
             raise
 
     def end(self, delivery: Delivery) -> State:

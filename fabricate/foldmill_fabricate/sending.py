@@ -17,8 +17,31 @@ from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.verify import JobFiles, Verification, read_folder, verify, verify_files
 from foldmill_fabricate.writers import writer
 
+Fitter = Callable[["Job", MarkFit], tuple[Mapping[str, bytes], Verification | None]]
+"""Writes the reverse of a job anew to fit a sheet, and proves it; raises CannotSend likewise."""
 Prover = Callable[[Path, JobFiles], Verification | None]
 """Proves what was read of a folder; raises CannotSend where it must not be sent."""
+
+
+def refit(job: Job, fit: MarkFit) -> tuple[Mapping[str, bytes], Verification]:
+    """Fit a job in this process: its programs, the reverse written anew, and their proof.
+
+    Raises CannotSend where they do not verify, or nothing writes them.
+    """
+    format_ = writer(job.plan.machine)
+    if format_ is None or format_.program is None:
+        raise CannotSend(
+            f"{job.path} cannot be fitted to marks: nothing installed writes programs in "
+            f"{job.plan.machine.language} anew. Find the sheet by its edges."
+        )
+    programs = {**job.programs} | {
+        part.name: format_.program(job.plan, part.setups, fit.fit)
+        for part in job.plan.programs
+        if part.face is Face.REVERSE
+    }
+    proof = verify(job.plan, job.pattern, programs, fit.fit)
+    _refuse(proof, job.path)
+    return programs, proof
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +57,8 @@ class Job:
     path: Path
     marks: tuple[tuple[float, float], ...] = ()
     """What it was fitted to, carrier coordinates in mm."""
+    fitter: Fitter = refit
+    """By default in this process."""
 
     @property
     def id(self) -> str:
@@ -47,19 +72,7 @@ class Job:
         the programs do not verify.
         """
         fit = fit_marks(self.plan, marks)
-        format_ = writer(self.plan.machine)
-        if format_ is None or format_.program is None:
-            raise CannotSend(
-                f"{self.path} cannot be fitted to marks: nothing installed writes programs in "
-                f"{self.plan.machine.language} anew. Find the sheet by its edges."
-            )
-        programs = {**self.programs} | {
-            part.name: format_.program(self.plan, part.setups, fit.fit)
-            for part in self.plan.programs
-            if part.face is Face.REVERSE
-        }
-        proof = verify(self.plan, self.pattern, programs, fit.fit)
-        _refuse(proof, self.path)
+        programs, proof = self.fitter(self, fit)
         measured = tuple((float(x), float(y)) for x, y in marks)
         return replace(self, programs=programs, proof=proof, fit=fit, marks=measured)
 
@@ -76,12 +89,13 @@ def open_job(
     marks: Sequence[tuple[float, float]] = (),
     witness: tuple[float, float] | None = None,
     prover: Prover = prove,
+    fitter: Fitter = refit,
 ) -> Job:
     """Read a job folder and prove it; raises CannotSend where it must not be sent.
 
     marks : where registration marks are seen after the flip, carrier coordinates in mm; the reverse
     programs are written anew to fit, and proved again. witness : where the witness mark is seen.
-    prover : by default in this process.
+    prover, fitter : by default in this process.
     """
     files = read_folder(path)
     plan = files.plan
@@ -94,7 +108,7 @@ def open_job(
     programs = {part.name: files.programs[part.name] for part in plan.programs}
     if witness is not None:
         check_witness(plan, witness)
-    job = Job(plan, programs, proof, None, files.pattern, path)
+    job = Job(plan, programs, proof, None, files.pattern, path, fitter=fitter)
     return job.fitted(marks) if marks else job
 
 

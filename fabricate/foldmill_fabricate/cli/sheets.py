@@ -11,7 +11,7 @@ from foldmill_fabricate.cli.making import Formats, describe
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
-    from foldmill_fabricate.plotter.ledger import Record, SheetRecord
+    from foldmill_fabricate.plotter.ledger import Ledger, Record, SheetRecord
 
 
 def add_to(app: typer.Typer) -> None:
@@ -72,7 +72,7 @@ def sheets(
         say(as_json, [_row(one) for one in found], _list(found))
         return
     if spoiled:
-        ledger.give_up(ledger.sheet(name).id)
+        _give_up(ledger, ledger.sheet(name))
     if remake and output:
         made = remaking.rest(ledger, name, output, doubtful or [], half or [], job, to)
         say(as_json, made.model_dump(mode="json"), describe(made))
@@ -83,6 +83,20 @@ def sheets(
     sheet = ledger.sheet(name)
     history = ledger.history(sheet.id)
     say(as_json, _row(sheet) | {"history": history}, _whole(sheet, history))
+
+
+def _give_up(ledger: Ledger, sheet: SheetRecord) -> None:
+    """Give a sheet up, and say so where a machine is at work on it, or may be."""
+    from foldmill_fabricate.plotter.ledger import State
+
+    ledger.give_up(sheet.id)
+    for record in sheet.records:
+        if record.state is State.RUNNING:
+            typer.echo(
+                f"{record.program.name} was under way: whoever sends it stops the machine now, its "
+                "tool up. A software stop is no emergency stop; look at the machine.",
+                err=True,
+            )
 
 
 def _row(sheet: SheetRecord) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, JobStore
 from foldmill_fabricate.jobs.values import Kind, Question, Reply
 from foldmill_fabricate.operators import SimulatedOperator, Verdict, said
+from foldmill_fabricate.plotter.errors import Spoiled
 from foldmill_fabricate.plotter.ledger import Record, Said, Word, account
 from foldmill_fabricate.plotter.resume import Start
 
@@ -37,6 +38,8 @@ class Hands:
     ) -> None:
         self._store, self._job, self._token, self._leaving = store, job, token, leaving
         self._simulated = url if url.startswith("sim://") else ""
+        self.sheet = ""
+        """Id of the sheet that is worked on, while it is one that may be given up."""
 
     def ready(self, request: Request) -> Answer:
         """Ask for what a gate asks for."""
@@ -100,7 +103,7 @@ class Hands:
     ) -> tuple[Reply, str]:
         """Ask, wait for the answer, and return it with the name of who gave it.
 
-        Raises Cancelled and Leave.
+        Raises Cancelled, Leave, and Spoiled where the sheet is given up before it is answered.
         """
         asked = Asked(
             self._job,
@@ -125,10 +128,16 @@ class Hands:
     def _wait(self, question: Question) -> tuple[Reply, str]:
         while True:
             self.heed()
+            self._heed_sheet()
             reply = self._store.reply(question.id)
             if reply is not None:
                 return reply
             self._leaving.wait(LOOK)
+
+    def _heed_sheet(self) -> None:
+        """Raise Spoiled where the sheet is given up meanwhile: nothing more is asked of it then."""
+        if self.sheet and self._store.ledger.sheet(self.sheet).is_given_up:
+            raise Spoiled(f"Sheet {self.sheet} was given up.")
 
     def heed(self) -> None:
         """Raise Cancelled or Leave where the job, or the process, is to end."""

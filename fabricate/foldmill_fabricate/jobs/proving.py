@@ -1,22 +1,64 @@
 """Prove a job folder in a process of its own, so that machines at work are never kept waiting.
 
-What was proved is told by a digest of every byte that counts; what is sent must have the same.
+So is a reverse that is fitted to measured marks: it is written anew there, and proved. What was
+proved is told by a digest of every byte that counts; what is sent must have the same.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.jobs.elsewhere import Late, Silent, done, serve
-from foldmill_fabricate.sending import prove
+from foldmill_fabricate.marks import MarkFit
+from foldmill_fabricate.passes import Fit
+from foldmill_fabricate.sending import Job, prove, refit
 from foldmill_fabricate.verify import JobFiles, read_folder
 
 _PATIENCE = 3600.0
 """s after which a proof is given up."""
+
+
+class Elsewhere:
+    """Proves a folder, and fits what was proved, in other processes.
+
+    heed : called again and again meanwhile; what it raises ends the work.
+    """
+
+    def __init__(self, heed: Callable[[], None]) -> None:
+        self._heed, self._digest = heed, ""
+
+    def prove(self, path: Path, files: JobFiles) -> None:
+        """Prove a folder; raises CannotSend where it must not be sent."""
+        self._told({"path": str(path)}, path, digest(files))
+        self._digest = digest(files)
+
+    def fit(self, job: Job, fit: MarkFit) -> tuple[Mapping[str, bytes], None]:
+        """Return the programs of a job, its reverse fitted and all of it proved.
+
+        Raises CannotSend where they do not verify, and where the folder is not any more as it was
+        proved.
+        """
+        order = {"path": str(job.path), "fit": fit.fit.model_dump()}
+        told = self._told(order, job.path, self._digest)
+        return {name: b64decode(data) for name, data in told["programs"].items()}, None
+
+    def _told(self, order: dict[str, Any], path: Path, digest: str) -> dict[str, Any]:
+        try:
+            told = done("foldmill_fabricate.jobs.proving", order, self._heed, _PATIENCE)
+        except Late:
+            raise CannotSend(f"{path} is not sent: proving it took more than an hour.") from None
+        except Silent as end:
+            raise CannotSend(f"{path} is not sent, for proving it failed: {end.why}") from None
+        if told["refused"]:
+            raise CannotSend(told["refused"])
+        if told["digest"] != digest:
+            raise CannotSend(f"{path} is not sent, for it was changed while it was proved.")
+        return told
 
 
 def prove_elsewhere(path: Path, files: JobFiles, heed: Callable[[], None]) -> None:
@@ -24,16 +66,7 @@ def prove_elsewhere(path: Path, files: JobFiles, heed: Callable[[], None]) -> No
 
     heed : called again and again meanwhile; what it raises ends the proof.
     """
-    try:
-        told = done("foldmill_fabricate.jobs.proving", {"path": str(path)}, heed, _PATIENCE)
-    except Late:
-        raise CannotSend(f"{path} is not sent: proving it took more than an hour.") from None
-    except Silent as end:
-        raise CannotSend(f"{path} is not sent, for proving it failed: {end.why}") from None
-    if told["refused"]:
-        raise CannotSend(told["refused"])
-    if told["digest"] != digest(files):
-        raise CannotSend(f"{path} is not sent, for it was changed while it was proved.")
+    Elsewhere(heed).prove(path, files)
 
 
 def digest(files: JobFiles) -> str:
@@ -46,12 +79,19 @@ def digest(files: JobFiles) -> str:
     return whole.hexdigest()
 
 
-def _proved(told: dict[str, Any]) -> dict[str, str]:
-    """Prove a folder in this process; raises FoldmillError."""
+def _proved(told: dict[str, Any]) -> dict[str, Any]:
+    """Prove a folder in this process, or what of it is fitted; raises FoldmillError."""
     path = Path(told["path"])
     files = read_folder(path)
-    prove(path, files)
-    return {"digest": digest(files)}
+    said: dict[str, Any] = {"digest": digest(files)}
+    if "fit" not in told:
+        prove(path, files)
+        return said
+    fit = MarkFit(Fit.model_validate(told["fit"]), 1.0, 0.0)
+    known = [part.name for part in files.plan.programs if part.name in files.programs]
+    named = {name: files.programs[name] for name in known}
+    programs, _ = refit(Job(files.plan, named, None, None, files.pattern, path), fit)
+    return said | {"programs": {name: b64encode(data).decode() for name, data in programs.items()}}
 
 
 if __name__ == "__main__":

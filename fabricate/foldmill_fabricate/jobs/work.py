@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass, field
-from functools import partial
 from threading import Event, Thread
 
 from foldmill.errors import FoldmillError
@@ -20,13 +19,13 @@ from foldmill_fabricate.jobs.hands import LOOK, Hands
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter
-from foldmill_fabricate.jobs.proving import prove_elsewhere
+from foldmill_fabricate.jobs.proving import Elsewhere
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
 from foldmill_fabricate.passes import Face, Gate, ProgramFile
-from foldmill_fabricate.plotter.errors import Fenced
-from foldmill_fabricate.plotter.ledger import SheetRecord, State
+from foldmill_fabricate.plotter.errors import Fenced, Spoiled
+from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.plotter.sender import Progress
 from foldmill_fabricate.plotter.wish import Wish
 from foldmill_fabricate.sending import Job, open_job
@@ -137,14 +136,18 @@ class _Work:
 
     def _make_sheet(self, sheet: str) -> bool:
         """Make a sheet; False where it was given up, and another is made in its place."""
+        told = ""
         while True:
             self.hands.heed()
             if sheet and not (record := self.ledger.sheet(sheet)).is_open:
-                return self._is_made(record)
+                return self._is_made(record, told)
             try:
                 opened = self._open()
                 sheet = sheet or self._lay(opened)
+                self.hands.sheet = sheet
                 self._send(opened, sheet)
+            except Spoiled as error:
+                told = str(error)
             except (Cancelled, GivenUp, Leave, Fenced):
                 raise
             except FoldmillError as error:
@@ -158,8 +161,8 @@ class _Work:
         """Prove the plan, once: what was proved is held here, and is what is sent."""
         if self.opened is None:
             folder = self.shop.plans.folder(self.job.plan)
-            prover = partial(prove_elsewhere, heed=self.hands.heed)
-            self.opened = open_job(folder, prover=prover)
+            elsewhere = Elsewhere(self.hands.heed)
+            self.opened = open_job(folder, prover=elsewhere.prove, fitter=elsewhere.fit)
         return self.opened
 
     def _lay(self, opened: Job) -> str:
@@ -190,22 +193,29 @@ class _Work:
         """Ask a person to put right what is in the way; no: the job ends."""
         self.hands.heed()  # a stop that was wanted is no trouble
         text = f"{why}\nOnce that is put right, it is tried again; or end the job."
-        if not self._asked(Kind.TROUBLE, text, sheet):
+        try:
+            again = self._asked(Kind.TROUBLE, text, sheet)
+        except Spoiled:
+            return  # what was in the way no longer is
+        if not again:
             raise Cancelled("Ended by a person.")
 
-    def _is_made(self, record: SheetRecord) -> bool:
-        """Tell whether a sheet that is closed was made; ask for another where it was given up."""
-        if all(one.state is not State.SPOILED for one in record.records):
+    def _is_made(self, record: SheetRecord, told: str = "") -> bool:
+        """Tell whether a sheet that is closed was made; ask for another where it was given up.
+
+        told : how the machine was stopped, where it was at work then.
+        """
+        self.hands.sheet = ""
+        if not record.is_given_up:
             self._have_removed(record.id)
             return True
-        text = f"Sheet {record.id} was given up. Is another one made in its place?"
+        text = f"{told or f'Sheet {record.id} was given up.'} Is another one made in its place?"
         if record.id in self.job.sheets[:-1] or self._asked(Kind.ANOTHER, text, record.id):
             return False
         raise GivenUp(f"Sheet {record.id} was given up.")
 
     def _is_given_up(self, sheet: str) -> bool:
-        records = self.ledger.sheet(sheet).records if sheet else ()
-        return any(one.state is State.SPOILED for one in records)
+        return bool(sheet) and self.ledger.sheet(sheet).is_given_up
 
     def _have_removed(self, sheet: str) -> None:
         """Have a sheet taken off that was made just before a crash, and nobody has spoken of."""

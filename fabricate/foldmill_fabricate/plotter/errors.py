@@ -8,6 +8,7 @@
     │   ├── NoAnswer (TimeoutError)      silence where an answer was due
     │   ├── Stopped                      a person stopped it
     │   └── Fenced                       another process has taken the run over
+    │       └── Spoiled                  the sheet was given up while it was cut
     ├── ProgramRefused (InvalidInput)    bytes that must not reach a machine
     └── LedgerRefused (InvalidInput)     what the ledger of passes does not allow
 """
@@ -43,3 +44,7 @@ class LedgerRefused(InvalidInput):
 
 class Fenced(PlotterError):
     """A run whose token another process has taken."""
+
+
+class Spoiled(Fenced):
+    """A run whose sheet a person has given up meanwhile."""

@@ -12,8 +12,9 @@ class Wish:
     and the delivery waits. A stop is heard at once.
     """
 
-    def __init__(self) -> None:
-        self._paused, self._stopped = Event(), Event()
+    def __init__(self, above: Wish | None = None) -> None:
+        """above : another wish that is heard, too."""
+        self._paused, self._stopped, self._above = Event(), Event(), above
 
     def pause(self) -> None:
         """Pause where the tool is up next."""
@@ -30,9 +31,9 @@ class Wish:
     @property
     def paused(self) -> bool:
         """Whether a pause is wanted."""
-        return self._paused.is_set()
+        return self._paused.is_set() or (self._above is not None and self._above.paused)
 
     @property
     def stopped(self) -> bool:
         """Whether a stop is wanted."""
-        return self._stopped.is_set()
+        return self._stopped.is_set() or (self._above is not None and self._above.stopped)

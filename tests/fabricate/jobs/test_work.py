@@ -79,7 +79,6 @@ def test_a_sheet_that_was_given_up_by_hand_is_asked_about_once_and_made_anew(
     with at_work(desk):
         gate = asked(desk, Kind.LOAD)
         desk.store.ledger.give_up(gate.sheet, "Ada")
-        desk.answer(gate.id, Reply(sheet=gate.sheet))
         another = asked(desk, Kind.ANOTHER, Kind.TROUBLE)
         assert another.kind is Kind.ANOTHER, another.text
         desk.answer(another.id, Reply())

@@ -117,6 +117,7 @@ class Workshop:
     forgetful: bool = False
     """Whether nobody switches a machine off and on that holds half an instruction."""
     database: str = ""
+    speed_up: float = SPEED_UP
     job: str = ""
     truth: Counter[Line] = field(default_factory=Counter)
     """What is to be on the sheet by the plan and by what the person chose."""
@@ -126,7 +127,9 @@ class Workshop:
 
     def __post_init__(self) -> None:
         self.chance = random.Random(self.seed)
-        self.simulator = Simulator(machine(blind=self.blind), clock=RealClock(), speed_up=SPEED_UP)
+        self.simulator = Simulator(
+            machine(blind=self.blind), clock=RealClock(), speed_up=self.speed_up
+        )
         self.folder = self.root / "job"
         folder.write(knife_job.fold(), plan(blind=self.blind), self.folder, ["hpgl"])
         self.places = Places(self.root / "state/foldmill", self.database)

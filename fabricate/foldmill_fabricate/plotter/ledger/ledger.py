@@ -13,7 +13,7 @@ from typing import Any
 from sqlalchemy import Connection, insert, select
 from sqlalchemy.exc import SQLAlchemyError
 
-from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused, Spoiled
 from foldmill_fabricate.plotter.ledger import origins, reading, words, writing
 from foldmill_fabricate.plotter.ledger.advancing import Advance
 from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
@@ -82,6 +82,11 @@ class Ledger:
     def close(self) -> None:
         """Let go of the database."""
         self._engine.dispose()
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether others can reach it: one that is kept in memory is this thread's alone."""
+        return bool(self._engine.url.database)
 
     def lay(
         self,
@@ -192,18 +197,25 @@ class Ledger:
         return self.record(sheet, number)
 
     def write(self, run: Run, sent: int, acked: int) -> None:
-        """Write down how far a run is; raises Fenced where it lost its token."""
+        """Write down how far a run is; raises Fenced where it lost its token, Spoiled its sheet."""
         if not self._advance(run.sheet, run.number, run.token, sent, acked):
-            raise Fenced(_fenced(run))
+            raise self.loss(run) or _fenced(run)
 
     def end(self, run: Run, state: State, why: str) -> None:
-        """End a run; raises Fenced where it lost its token."""
+        """End a run; raises Fenced where it lost its token, Spoiled its sheet."""
         with self._engine.begin() as at:
             row = program_row(at, run.sheet, run.number)
             if row.token != run.token or not set_state(at, row, state, note=why):
-                raise Fenced(_fenced(run))
+                raise _lost(run, row)
             told = f"{state.value}: {why}" if why else state.value
             note(at, self._now(), run.sheet, run.number, told)
+
+    def loss(self, run: Run) -> Fenced | None:
+        """Return why a run may not go on, Fenced or Spoiled; None while it holds its token."""
+        with reading_of(self._engine) as at:
+            row = program_row(at, run.sheet, run.number)
+        held = row.token == run.token and State(row.state) is State.RUNNING
+        return None if held else _lost(run, row)
 
     def say(self, sheet: str, number: int, said: words.Said, who: str = "") -> Record:
         """Take a person's word on a program that was interrupted or not confirmed.
@@ -223,7 +235,7 @@ class Ledger:
         return self.record(sheet, number)
 
     def give_up(self, sheet: str, who: str = "") -> SheetRecord:
-        """Give up what is left of a sheet, on a person's word."""
+        """Give up what is left of a sheet, on a person's word; what runs of it is stopped."""
         with self._engine.begin() as at:
             words.give_up(at, sheet)
             note(at, self._now(), sheet, None, Word.SPOILED.value, who)
@@ -241,8 +253,14 @@ def _free_name(at: Connection, job: str) -> str:
         count += 1
 
 
-def _fenced(run: Run) -> str:
-    return (
+def _lost(run: Run, row: Any) -> Fenced:
+    if State(row.state) is State.SPOILED:
+        return Spoiled(f"Sheet {run.sheet} was given up while {row.name} was being cut.")
+    return _fenced(run)
+
+
+def _fenced(run: Run) -> Fenced:
+    return Fenced(
         f"Program {run.number + 1} of sheet {run.sheet} was taken over by another process; this "
         "one stops, and sends nothing more."
     )

@@ -63,13 +63,17 @@ def take_over(at: Connection, record: SheetRecord, goes_on: GoesOn) -> None:
     after = successor(at, record.id)
     if after:
         raise LedgerRefused(f"Sheet {record.id} was gone on with already, as {after}.")
-    if any(one.state is State.RUNNING for one in record.records):
+    if _is_made(record):
         raise LedgerRefused(f"Sheet {record.id} is being made; wait for its end.")
     if record.digest != goes_on.digest:
         raise LedgerRefused(
             f"Sheet {record.id} is not as it was when its rest was planned: strokes were cut since "
             f"then, or spoken of. Plan the rest again with foldmill sheets {record.id} --remake."
         )
-    words.give_up(at, record.id)
+    words.give_up(at, record.id, running=False)
     if any(one.state is not State.SPOILED for one in reading.sheet(at, record.id).records):
         raise LedgerRefused(f"Sheet {record.id} was taken up by another just now; look again.")
+
+
+def _is_made(record: SheetRecord) -> bool:
+    return any(one.state is State.RUNNING for one in record.records)

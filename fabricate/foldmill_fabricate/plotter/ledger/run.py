@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from foldmill_fabricate.plotter.errors import Fenced
 from foldmill_fabricate.plotter.ledger.values import State
 
 
@@ -18,9 +19,18 @@ class Keeper(Protocol):
         """Raise Fenced where the run lost its token."""
         ...
 
+    def loss(self, run: Run) -> Fenced | None:
+        """Return why a run may not go on; None while it holds its token."""
+        ...
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether anybody else can reach what is written down."""
+        ...
+
 
 class Run:
-    """Holds a program's token. Every call raises Fenced once somebody else holds it."""
+    """Holds a program's token. What writes raises Fenced once somebody else holds it."""
 
     def __init__(
         self, ledger: Keeper, sheet: str, number: int, token: int, first: int, strokes: int
@@ -43,3 +53,12 @@ class Run:
     def end(self, state: State, note: str = "") -> None:
         """Give the token back; ``note`` : why, a sentence."""
         self._ledger.end(self, state, note)
+
+    def loss(self) -> Fenced | None:
+        """Return why this run may not go on, Fenced or Spoiled; None while it holds its token."""
+        return self._ledger.loss(self)
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether anybody else can take the token."""
+        return self._ledger.is_shared

@@ -32,13 +32,16 @@ class State(StrEnum):
 
 FOLLOWS: Mapping[State, frozenset[State]] = {
     State.READY: frozenset({State.RUNNING, State.DONE, State.SPOILED}),
-    State.RUNNING: frozenset({State.INTERRUPTED, State.UNCONFIRMED, State.DONE}),
+    State.RUNNING: frozenset({State.INTERRUPTED, State.UNCONFIRMED, State.DONE, State.SPOILED}),
     State.INTERRUPTED: frozenset({State.READY, State.DONE, State.SPOILED}),
     State.UNCONFIRMED: frozenset({State.READY, State.DONE, State.SPOILED}),
     State.DONE: frozenset({State.SPOILED}),
     State.SPOILED: frozenset(),
 }
-"""Which state may follow which. From interrupted and unconfirmed only a person's word leads on."""
+"""Which state may follow which. From interrupted and unconfirmed only a person's word leads on.
+
+So does one from running to spoiled: it takes the token from whoever runs the program, and stops it.
+"""
 
 
 class Word(StrEnum):
@@ -171,6 +174,11 @@ class SheetRecord:
     def is_open(self) -> bool:
         """Whether any of it is still to be made."""
         return any(record.state not in {State.DONE, State.SPOILED} for record in self.records)
+
+    @property
+    def is_given_up(self) -> bool:
+        """Whether nothing more may be cut on it."""
+        return any(record.state is State.SPOILED for record in self.records)
 
     @property
     def is_begun(self) -> bool:

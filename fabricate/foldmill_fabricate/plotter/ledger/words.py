@@ -80,7 +80,17 @@ def _settle(at: Connection, record: Record, cut_to: int) -> None:
     at.execute(update(RUNS).where(here, RUNS.c.cut_to.is_(None)).values(cut_to=cut_to))
 
 
-def give_up(at: Connection, sheet: str) -> None:
-    """Spoil every program of a sheet that is not running."""
+CUT_SHORT = "Its sheet was given up while it was being cut."
+"""What the record says of a program that was running then."""
+
+
+def give_up(at: Connection, sheet: str, *, running: bool = True) -> None:
+    """Spoil every program of a sheet; one that runs loses its token by that, and is stopped.
+
+    running : False to leave those alone.
+    """
     for row in at.execute(select(PROGRAMS).where(PROGRAMS.c.sheet == sheet)).all():
-        set_state(at, row, State.SPOILED)
+        if State(row.state) is not State.RUNNING:
+            set_state(at, row, State.SPOILED)
+        elif running:
+            set_state(at, row, State.SPOILED, token=row.token + 1, note=CUT_SHORT)

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused, Spoiled
 from foldmill_fabricate.plotter.ledger import (
     GoesOn,
     Ledger,
@@ -124,6 +124,44 @@ def test_a_spoiled_sheet_is_given_up_whole(ledger: Ledger) -> None:
     assert {record.state for record in ledger.sheet(sheet).records} == {State.SPOILED}
     assert ledger.open_sheets() == []
     assert ledger.history(sheet)[-1] == (NOON.isoformat(timespec="milliseconds"), "Ada", "spoiled")
+
+
+def test_a_sheet_that_is_given_up_while_it_is_cut_takes_the_token_from_whoever_cuts_it(
+    ledger: Ledger,
+) -> None:
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "dev")
+    run.advance(4, 2)
+    assert run.loss() is None
+    before = ledger.sheet(sheet).digest
+    ledger.give_up(sheet, "Ada")
+    with pytest.raises(Spoiled, match=f"Sheet {sheet} was given up while 1-front-score.hpgl"):
+        run.advance(5, 3)
+    with pytest.raises(Spoiled, match=f"Sheet {sheet} was given up while 1-front-score.hpgl"):
+        run.end(State.DONE)
+    assert isinstance(run.loss(), Spoiled)
+    found = ledger.record(sheet, 0)
+    assert (found.state, found.certain, found.doubtful) == (State.SPOILED, (0, 1), (2, 3))
+    assert "while it was being cut" in found.note
+    assert ledger.sheet(sheet).digest == before, "what is missing can be planned"
+    with pytest.raises(LedgerRefused, match="spoiled; it is not sent again"):
+        ledger.claim(sheet, 0, "dev")
+
+
+def test_who_only_goes_on_with_a_sheet_takes_no_token_from_whoever_cuts_it(
+    ledger: Ledger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a database that lets both look first, a run that began meanwhile is left alone."""
+    sheet = lay(ledger).id
+    run = ledger.claim(sheet, 0, "dev")
+    run.advance(3, 2)
+    place = GoesOn(sheet, ledger.sheet(sheet).digest)
+    programs = [Program("1.hpgl", "front", "d" * 64, 10)]
+    monkeypatch.setattr(origins, "_is_made", lambda _record: False)
+    with pytest.raises(LedgerRefused, match="taken up by another just now"):
+        ledger.lay("e" * 64, programs, title="Rest", machine="m", material="pp", goes_on=place)
+    run.advance(4, 3)
+    assert {one.state for one in ledger.sheet(sheet).records} == {State.RUNNING, State.READY}
 
 
 def test_a_word_on_what_is_not_in_doubt_is_refused(ledger: Ledger) -> None:
