@@ -15,7 +15,6 @@ from pydantic import ValidationError
 
 from foldmill import Fold, installed
 from foldmill.exchange import fold as fold_file
-from foldmill_fabricate import jobsheet
 from foldmill_fabricate.coupon.answers import NAME as ANSWERS
 from foldmill_fabricate.coupon.answers import template
 from foldmill_fabricate.files import write_all
@@ -36,6 +35,8 @@ def write(
     style : of the drawings. Raises UnknownName for a format nobody offers. What an earlier plan
     left in the same folder is removed: a stale file must not reach a machine or mislead a person.
     """
+    from foldmill_fabricate import jobsheet
+
     contents: dict[str, bytes] = {}
     if plan.whole.source is None:  # else there is no pattern
         contents[PATTERN] = fold_file.write(fold).encode()

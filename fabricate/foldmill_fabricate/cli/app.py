@@ -7,7 +7,7 @@ the commands, so that ``foldmill --help`` is quick.
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
@@ -38,6 +38,26 @@ app = typer.Typer(
     help="From an origami design to a sheet that a cutting plotter scores on both faces. "
     "Lengths in mm, angles in degrees.",
 )
+
+
+def _tell_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        typer.echo(f"foldmill {version('foldmill')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _whole(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_tell_version, is_eager=True, help="Tell the version."),
+    ] = False,
+) -> None:
+    pass
+
+
 catalogue.add_to(app)
 designing.add_to(app)
 importing.add_to(app)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from foldmill import Design, Fold, FoldmillError
-from foldmill.exchange.marking import marked
+from foldmill import FoldmillError
 from foldmill.finding import has_errors
 from foldmill_fabricate.cli.importing import PatternFile, load, with_file_options
 from foldmill_fabricate.cli.output import (
@@ -22,6 +21,9 @@ from foldmill_fabricate.cli.output import (
     say,
     table,
 )
+
+if TYPE_CHECKING:
+    from foldmill import Design, Fold
 
 
 def add_to(app: typer.Typer) -> None:
@@ -63,6 +65,7 @@ def design(
     """
     from foldmill import installed
     from foldmill.check import check as check_fold
+    from foldmill.exchange.marking import marked
     from foldmill_fabricate.cli.parameters import gather
 
     if family is None:

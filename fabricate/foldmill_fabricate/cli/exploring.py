@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from foldmill.exchange.marking import marked
 from foldmill.finding import has_errors
 from foldmill_fabricate.cli.designing import save
 from foldmill_fabricate.cli.output import AsJson, finding_lines, say, table
@@ -228,6 +227,7 @@ def _write_picture(sweep: Sweep[Any], file: Path, thumbnails: Sequence[Which]) -
 def _write_pick(sweep: Sweep[Any], pick: Pick, force: bool) -> str:
     """Write a pick; return why not, where it does not fold and is not forced."""
     from foldmill.check import check
+    from foldmill.exchange.marking import marked
 
     row = pick.which.row(sweep)
     fold = sweep.fold(row)

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from foldmill import Fold, FoldmillError, UnreadableFile
+from foldmill import FoldmillError, UnreadableFile
 from foldmill_fabricate.cli.output import AsJson, exit_code, figure_lines, finding_data, say
 
 if TYPE_CHECKING:
+    from foldmill import Fold
     from foldmill.exchange.options import Options
     from foldmill_fabricate.importing import Imported
 

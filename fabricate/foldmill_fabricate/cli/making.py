@@ -232,7 +232,7 @@ def verify(
     found = verify_files(files)
     if picture is not None:
         from foldmill_fabricate.files import write_all
-        from foldmill_fabricate.pictures import faults_picture
+        from foldmill_fabricate.pictures.faults import faults_picture
 
         write_all(picture.parent, {picture.name: faults_picture(files.plan, found)})
     data = {

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from foldmill import Fold, FoldmillError, UnknownName
-from foldmill.exchange.marking import marked
+from foldmill import FoldmillError, UnknownName
 from foldmill.finding import Severity
-from foldmill.motion import Motion
 from foldmill_fabricate.cli.importing import load
 from foldmill_fabricate.cli.output import AsJson, finding_lines, say
+
+if TYPE_CHECKING:
+    from foldmill import Fold
+    from foldmill.motion import Motion
 
 MOST_STEPS = 1000
 
@@ -82,6 +84,7 @@ def motion(
 def _marked(fold: Fold, force: bool) -> Fold:
     """Refuse a form that does not fold, unless it is wanted all the same; then it is marked."""
     from foldmill.check import check
+    from foldmill.exchange.marking import marked
 
     found = [each for each in check(fold).findings if each.severity is Severity.ERROR]
     if found and not force:

@@ -42,7 +42,7 @@ def draw(ledger: Ledger, name: str, output: Path, job: Path | None) -> None:
     """Draw both faces of a sheet as its record says."""
     from foldmill_fabricate.choosing import fit_on_record
     from foldmill_fabricate.files import write_whole
-    from foldmill_fabricate.pictures import as_cut_picture
+    from foldmill_fabricate.pictures.as_cut import as_cut_picture
     from foldmill_fabricate.verify import read_folder
 
     if output.suffix.lower() != ".png":

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from foldmill import Design, FoldmillError, InvalidInput
+from foldmill import FoldmillError, InvalidInput
 from foldmill_fabricate.cli.output import AsJson, say, table
 
 if TYPE_CHECKING:
+    from foldmill import Design
     from foldmill_fabricate.explore.search import Outcome, Request, Result, Target
     from foldmill_fabricate.explore.search.fit import Room
     from foldmill_fabricate.explore.search.run import Tell

@@ -1,12 +1,11 @@
 """Pictures for people: the pattern, the folded form, the sheet with both its faces.
 
 Each is a pure function to the bytes of a PNG or SVG, the same bytes for the same input. matplotlib
-is imported inside the functions, without pyplot, so that nobody's global state is touched.
+is imported inside the functions, without pyplot, so that nobody's global state is touched. Those
+that know the record of a sheet or its proof are in ``as_cut`` and ``faults``.
 """
 
 from foldmill_fabricate.pictures.angles import angles_picture
-from foldmill_fabricate.pictures.as_cut import as_cut_picture
-from foldmill_fabricate.pictures.faults import faults_picture
 from foldmill_fabricate.pictures.folded import folded_picture
 from foldmill_fabricate.pictures.gallery import gallery
 from foldmill_fabricate.pictures.motion import motion_picture
@@ -19,8 +18,6 @@ from foldmill_fabricate.pictures.stages import stages_picture
 
 __all__ = [
     "angles_picture",
-    "as_cut_picture",
-    "faults_picture",
     "folded_picture",
     "gallery",
     "motion_picture",

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -322,14 +323,56 @@ def test_a_job_fitted_to_marks_is_sent_and_a_wrong_reading_is_not(foldmill: Run)
     assert "write x1,y1" in foldmill(*send, "--marks", "nan,539.5;539.5,539.5").err
 
 
-def test_help_is_quick_because_nothing_heavy_is_imported() -> None:
+HEAVY = {
+    *("distributed", "ezdxf", "fastapi", "joblib", "matplotlib", "networkx", "numba", "numpy"),
+    *("pikepdf", "pyarrow", "pydantic", "scipy", "serial", "shapely", "sqlalchemy", "trimesh"),
+}
+
+
+@pytest.mark.parametrize(
+    ("words", "needed"),
+    [
+        (["--help"], set()),
+        (["--version"], set()),
+        (["plan", "--help"], {"pydantic"}),  # Typer asks it of a command's options
+        (["job", "list", "--help"], {"pydantic"}),
+        (["families"], {"numpy", "pydantic"}),
+        (["machines"], {"numpy", "pydantic"}),
+        (["design", "rotational", "-o", "a.fold"], {"numpy", "pydantic", "scipy", "shapely"}),
+    ],
+)
+def test_a_command_loads_what_it_needs_and_nothing_else_that_is_heavy(
+    words: list[str], needed: set[str], tmp_path: Path
+) -> None:
+    loaded = _loaded(words, tmp_path)
+    assert loaded & HEAVY <= needed
+
+
+def test_who_plans_programs_alone_waits_for_no_drawings_and_no_ledger(tmp_path: Path) -> None:
+    lines = "IN;SP1;PU400,400;PD8000,400;PU8000,800;PD400,800;PU400,1200;PD8000,1200;PU;SP0;"
+    (tmp_path / "a.plt").write_text(lines)
+    loaded = _loaded(["plan", "a.plt", "--pen", "1=score", "--to", "hpgl", "-o", "job"], tmp_path)
+    assert (tmp_path / "job" / "plan.json").exists()
+    assert loaded & HEAVY <= {"matplotlib", "numpy", "pydantic", "scipy", "shapely"}
+    assert "foldmill_fabricate.remaking" not in loaded
+
+
+def _loaded(words: list[str], place: Path) -> set[str]:
+    """Return the modules of a process that ran a command; it must have ended well."""
     code = (
-        "import sys; sys.argv = ['foldmill', '--help']\n"
+        f"import sys; sys.argv = ['foldmill', *{words!r}]\n"
         "from foldmill_fabricate.cli import main\n"
-        "try:\n    main()\nexcept SystemExit:\n    pass\n"
-        "heavy = {'matplotlib', 'scipy', 'ezdxf', 'shapely', 'trimesh', 'serial', 'networkx'}\n"
-        "print(sorted(heavy & set(sys.modules)))"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code, end.code\n"
+        "print('LOADED', *sys.modules)"
     )
     env = {**os.environ, "PYTHONWARNINGS": "ignore"}
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env)
-    assert done.stdout.strip().endswith("[]"), done.stdout + done.stderr
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=env, cwd=place
+    )
+    assert "LOADED" in done.stdout, done.stdout + done.stderr
+    return set(done.stdout.partition("LOADED")[2].split())
+
+
+def test_the_version_is_told(foldmill: Run) -> None:
+    told = foldmill("--version")
+    assert (told.code, told.out) == (0, f"foldmill {version('foldmill')}\n")

@@ -12,8 +12,7 @@ from matplotlib.image import imread
 
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.pictures import as_cut_picture
-from foldmill_fabricate.pictures.as_cut import CERTAIN, DOUBTFUL, LEFT, LOOKS
+from foldmill_fabricate.pictures.as_cut import CERTAIN, DOUBTFUL, LEFT, LOOKS, as_cut_picture
 from foldmill_fabricate.plotter.ledger import Entry, Program, Record, SheetRecord, State
 from foldmill_fabricate.remaking import Standing, accounts, lying, read_spoken, remake
 from foldmill_fabricate.remaking.strokes import owners

@@ -15,8 +15,7 @@ from fabricate.verify.square_job import Job
 from matplotlib.image import imread
 
 from foldmill_fabricate.passes import Face
-from foldmill_fabricate.pictures import faults_picture
-from foldmill_fabricate.pictures.faults import place
+from foldmill_fabricate.pictures.faults import faults_picture, place
 from foldmill_fabricate.verify import Kind, Verification, verify
 
 RED, ORANGE, VIOLET = (0xD0, 0x10, 0x10), (0xF0, 0x78, 0x00), (0x70, 0x00, 0xB0)
