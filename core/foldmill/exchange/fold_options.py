@@ -41,7 +41,9 @@ def read(content: bytes, options: Options, limits: Limits = DEFAULT) -> tuple[Fo
     unit = _unit(every, options)
     if _is_scaled(options):
         data = _scaled(data, every, options, unit)
-    fold = fold_file.read_data(data, planarise=options.planarise, frame=options.frame)
+    fold = fold_file.read_data(
+        data, planarise=options.planarise, frame=options.frame, limits=limits
+    )
     notes += fold.meta["fold"]["notes"]
     findings = [*said, *(Finding("import-note", Severity.INFO, "", note) for note in notes)]
     told = Fold(
