@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from foldmill import planar
 from foldmill.errors import InvalidPattern
 from foldmill.tolerances import COINCIDENT_MM, FLAT_DEG
+from foldmill.triangulation import triangulate
 from foldmill.vectors import lengths
 
 Floats = NDArray[np.float64]
@@ -104,7 +105,7 @@ class CreasePattern:
         angles = _frozen("fold_angles", given, np.float64, (-1,))
         _validate_ends(points, lines)
         polygons = planar.polygons(points, lines)
-        faces, owners, extra = planar.triangulate(points, polygons)
+        faces, owners, extra = triangulate(points, polygons)
         return cls(
             points,
             np.vstack([lines, extra]) if len(extra) else lines,

@@ -8,9 +8,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill.errors import InvalidPattern
-from foldmill.tolerances import ON_LINE
-
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -76,35 +73,54 @@ def polygons(points: Floats, edges: Indices) -> list[list[int]]:
     points : (V, 2); edges : (E, 2), not crossing between vertices.
     Each half-edge is followed by the next one clockwise about its head.
     """
-    turn = _next_half_edge(points, edges)
+    found = _walks(points, edges)
+    areas = signed_areas(points, found).tolist()
+    return [loop for loop, area in zip(found, areas, strict=True) if area > 0]
+
+
+def _walks(points: Floats, edges: Indices) -> list[list[int]]:
+    """Return the vertices along every closed walk of half-edges, each turning right where it can.
+
+    Walks begin with the edges of the vertex that is named first.
+    """
+    tails, following = _next_half_edges(points, edges)
+    is_open = [True] * len(tails)
     found: list[list[int]] = []
-    open_half_edges = set(turn)
-    for start in list(turn):
-        if start not in open_half_edges:
-            continue
+    for start in range(len(tails)):
         loop, half_edge = [], start
-        while half_edge in open_half_edges:
-            open_half_edges.discard(half_edge)
-            loop.append(half_edge[0])
-            half_edge = turn[half_edge]
-        if signed_area(points[loop]) > 0:
+        while is_open[half_edge]:
+            is_open[half_edge] = False
+            loop.append(tails[half_edge])
+            half_edge = following[half_edge]
+        if loop:
             found.append(loop)
     return found
 
 
-def _next_half_edge(points: Floats, edges: Indices) -> dict[tuple[int, int], tuple[int, int]]:
-    around: dict[int, list[tuple[float, int]]] = {}
+def _next_half_edges(points: Floats, edges: Indices) -> tuple[list[int], list[int]]:
+    """Return the tail of each half-edge, and the half-edge that follows it clockwise at its head.
+
+    They are listed by their heads, as those are first named, and about each by angle.
+    """
     halves = np.stack([edges, edges[:, ::-1]], axis=1).reshape(-1, 2)
+    if not len(halves):
+        return [], []
+    named, first = np.unique(halves[:, 0], return_index=True)
+    rank = np.zeros(named[-1] + 1, np.intp)
+    rank[named] = np.argsort(np.argsort(first))
     steps = points[halves[:, 1]] - points[halves[:, 0]]
-    angles = np.arctan2(steps[:, 1], steps[:, 0]).tolist()
-    for (tail, head), angle in zip(halves.tolist(), angles, strict=True):
-        around.setdefault(tail, []).append((angle, head))
-    turn: dict[tuple[int, int], tuple[int, int]] = {}
-    for vertex, spokes in around.items():
-        heads = [head for _, head in sorted(spokes)]
-        for k, head in enumerate(heads):
-            turn[(head, vertex)] = (vertex, heads[k - 1])
-    return turn
+    angles = np.arctan2(steps[:, 1], steps[:, 0])
+    order = np.lexsort((halves[:, 1], angles, rank[halves[:, 0]]))
+    at, to = halves[order].T
+    begins = np.flatnonzero(np.append(True, at[1:] != at[:-1]))
+    before = np.arange(len(at)) - 1
+    before[begins] = np.append(begins[1:], len(at)) - 1
+    # The half-edge to→at is followed by at→to of the spoke before, which stands where its twin is.
+    place = np.zeros(len(at), np.intp)
+    place[order] = np.arange(len(at))
+    twin = place[order ^ 1]
+    following = twin[before]
+    return to.tolist(), following.tolist()
 
 
 def signed_area(loop: Floats) -> float:
@@ -125,81 +141,17 @@ def signed_areas(points: Floats, loops: list[list[int]]) -> Floats:
     return areas
 
 
-def triangulate(points: Floats, loops: list[list[int]]) -> tuple[Indices, Indices, Indices]:
-    """Cut simple polygons into triangles without new vertices.
-
-    Returns faces (F, 3), the polygon (F,) each is part of, and the added edges (A, 2). Raises
-    InvalidPattern for a polygon whose lines cross.
-    """
-    faces: list[tuple[int, ...]] = []
-    owners: list[int] = []
-    extra: list[tuple[int, int]] = []
-    for number, loop in enumerate(loops):
-        if len(loop) == 3:
-            faces.append(tuple(loop))
-            owners.append(number)
-            continue
-        triangles = _cut_polygon(points, loop)
-        faces += triangles
-        owners += [number] * len(triangles)
-        rim = {frozenset(side) for side in zip(loop, loop[1:] + loop[:1], strict=True)}
-        sides = {frozenset((t[k - 1], t[k])) for t in triangles for k in range(3)}
-        inner = sorted((min(side), max(side)) for side in sides - rim)
-        extra += inner
-    return (
-        np.array(faces, np.intp).reshape(-1, 3),
-        np.array(owners, np.intp),
-        np.array(extra, np.intp).reshape(-1, 2),
-    )
-
-
-def _cut_polygon(points: Floats, loop: list[int]) -> list[tuple[int, ...]]:
-    import shapely
-
-    # Ties, as in a square, are decided by the first corner; so begin where every caller would.
-    first = loop.index(min(loop))
-    loop = loop[first:] + loop[:first]
-    index = {tuple(points[k]): k for k in loop}
-    try:
-        cut = shapely.constrained_delaunay_triangles(shapely.Polygon(points[loop]))
-        corners = [shapely.get_coordinates(part.exterior)[:3] for part in cut.geoms]
-        triangles = [_ascending(points, [index[tuple(c)] for c in three]) for three in corners]
-    except (shapely.GEOSException, KeyError):  # KeyError: a corner where no vertex is
-        triangles = []
-    area, covered = signed_area(points[loop]), sum(signed_area(points[list(t)]) for t in triangles)
-    if abs(area - covered) > ON_LINE * area:
-        x, y = points[loop[0]]
-        raise InvalidPattern(
-            f"The lines around the polygon at ({x:g}, {y:g}) mm cross or overlap between its "
-            f"{len(loop)} vertices; give them a vertex wherever they meet."
-        )
-    return sorted(triangles)
-
-
-def _ascending(points: Floats, corners: list[int]) -> tuple[int, ...]:
-    """Return a triangle counter-clockwise, its lowest number first."""
-    ccw = corners if signed_area(points[corners]) > 0 else corners[::-1]
-    k = ccw.index(min(ccw))
-    return tuple(ccw[k:] + ccw[:k])
-
-
 def loops(points: Floats, edges: Indices) -> list[Indices]:
     """Chain edges (E, 2) into closed loops, counter-clockwise, the largest area first.
 
     Edges that close no loop are left out. At a vertex where loops touch, the chain turns right, so
     that loops do not cross.
     """
-    turn = _next_half_edge(points, edges)
-    chains: list[Indices] = []
-    open_half_edges = set(turn)
-    for start in list(turn):
-        if start not in open_half_edges:
-            continue
-        chain, half_edge = [], start
-        while half_edge in open_half_edges:
-            open_half_edges.discard(half_edge)
-            chain.append(half_edge[0])
-            half_edge = turn[half_edge]
-        if len(chain) > 2 and signed_area(points[chain]) > 0:
-            chains.append(np.array(chain, np.intp))
+    found = _walks(points, edges)
+    areas = signed_areas(points, found).tolist()
+    chains = [
+        np.array(chain, np.intp)
+        for chain, area in zip(found, areas, strict=True)
+        if len(chain) > 2 and area > 0
+    ]
     return sorted(chains, key=lambda chain: -signed_area(points[chain]))

@@ -19,6 +19,7 @@ from foldmill.errors import ImpossibleGeometry
 from foldmill.folded import FoldedForm
 from foldmill.pattern import Assignment, CreasePattern
 from foldmill.tolerances import COINCIDENT_MM
+from foldmill.triangulation import triangulate
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -105,7 +106,7 @@ def _joined(sheet: CreasePattern, patches: list[_Patch]) -> Fold:
     ]
     inner = np.array([(a, b) in owner and (b, a) in owner for a, b in edges])
     own = np.array([0 if e is None else e for e in crease])
-    faces, owners, extra = planar.triangulate(flat, loops)
+    faces, owners, extra = triangulate(flat, loops)
     none = np.zeros(len(extra))
     pattern = CreasePattern(
         flat,

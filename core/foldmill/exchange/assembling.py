@@ -13,6 +13,7 @@ import numpy as np
 from foldmill.design import Fold
 from foldmill.errors import UnreadableFile
 from foldmill.exchange.drawing import Drawing
+from foldmill.exchange.limits import DEFAULT, Limits
 from foldmill.exchange.mending import RANKS, findings_of
 from foldmill.exchange.naming import named
 from foldmill.exchange.options import Options
@@ -40,8 +41,10 @@ class _Lines:
     angles: list[float]
 
 
-def fold_of(drawing: Drawing, options: Options) -> Fold:
+def fold_of(drawing: Drawing, options: Options, limits: Limits = DEFAULT) -> Fold:
     """Return the crease pattern of a drawing; raises UnreadableFile, saying where and what to do.
+
+    Raises InvalidPattern where its lines cross so often that they would become too many.
 
     The sheet lies as the drawing shows it, the lower left corner of its outline at (0, 0), whatever
     reaches beyond.
@@ -51,7 +54,7 @@ def fold_of(drawing: Drawing, options: Options) -> Fold:
     size = float(np.ptp(lines.segments.reshape(-1, 2), axis=0).max())
     if size <= TOUCH_MM:
         raise UnreadableFile(f"The whole drawing is {size:g} mm wide; say how wide by --width.")
-    sheet, said = _joined(lines, size, options)
+    sheet, said = _joined(lines, size, options, limits.lines)
     pattern = CreasePattern.from_lines(sheet.points, sheet.edges, sheet.letters, sheet.angles)
     title = {"title": drawing.title} if drawing.title else {}
     findings = (*meant.findings, *_notes(drawing.notes), *said, *sheet.findings)
@@ -68,13 +71,15 @@ def _lines_of(drawing: Drawing, said: Sequence[str], options: Options) -> _Lines
     return _Lines(lines - framed.reshape(-1, 2).min(axis=0), letters, angles)
 
 
-def _joined(lines: _Lines, size: float, options: Options) -> tuple[Outlined, list[Finding]]:
+def _joined(
+    lines: _Lines, size: float, options: Options, most: int
+) -> tuple[Outlined, list[Finding]]:
     """Return the sheet, its lines joined within the least gap that gives one."""
     gaps = [options.gap] if options.gap else [max(TOUCH_MM, size * each) for each in GAP_SHARES]
     first: UnreadableFile | None = None
     for gap in gaps:
         try:
-            sheet, said = _sheet(lines, gap, options)
+            sheet, said = _sheet(lines, gap, options, most)
         except UnreadableFile as error:
             first = first or error
         else:
@@ -88,12 +93,14 @@ def _joined_far(gap: float) -> Finding:
     return Finding("import-gap", Severity.WARNING, "", message, remedy)
 
 
-def _sheet(lines: _Lines, gap: float, options: Options) -> tuple[Outlined, list[Finding]]:
+def _sheet(
+    lines: _Lines, gap: float, options: Options, most: int
+) -> tuple[Outlined, list[Finding]]:
     kinds = list(zip(lines.letters, lines.angles, strict=True))
     numbers = {kind: k for k, kind in enumerate(dict.fromkeys(kinds))}
     ranks = [RANKS[letter] for letter in lines.letters]
-    found = planarise(lines.segments, [numbers[kind] for kind in kinds], ranks, gap)
-    _refuse_conflicts(found.changes, lines.letters, lines.angles)
+    found = planarise(lines.segments, [numbers[kind] for kind in kinds], ranks, gap, most)
+    _refuse_conflicts(found.changes, lines)
     sheet = outlined(
         found.points,
         found.edges,
@@ -118,19 +125,39 @@ def _folded(
     return found, angles
 
 
-def _refuse_conflicts(
-    changes: Sequence[Change], letters: Sequence[str], angles: Sequence[float]
-) -> None:
+def _refuse_conflicts(changes: Sequence[Change], lines: _Lines) -> None:
+    letters, angles = lines.letters, lines.angles
     for change in changes:
         one, two = change.line, change.under
         if change.what != "overlap" or not {letters[one], letters[two]} <= {*"MV"}:
             continue
         if abs(angles[one] - angles[two]) > FOLD_ANGLE_READ_DEG:
             said = " and ".join(f"{letters[n]}, {angles[n]:g}°" for n in sorted((one, two)))
+            place = f"at ({change.x:.4g}, {change.y:.4g}) mm"
+            apart = _apart(np.array([change.x, change.y]), *lines.segments[[one, two]])
+            if apart <= TOUCH_MM:
+                raise UnreadableFile(
+                    f"Two creases lie upon each other {place} and fold differently: {said}. "
+                    f"Remove one of them."
+                )
             raise UnreadableFile(
-                f"Two creases lie upon each other at ({change.x:.4g}, {change.y:.4g}) mm and fold "
-                f"differently: {said}. Remove one of them."
+                f"Two creases run side by side {place}, {apart:.2g} mm apart, and fold "
+                f"differently: {said}. No sheet folds in so narrow a strip: move or remove one of "
+                f"them. If they are meant so, a smaller --gap keeps them apart."
             )
+
+
+def _apart(place: Floats, one: Floats, two: Floats) -> float:
+    """Return how far two lines (2, 2) are apart at a place, mm."""
+    spot = _nearest(place, one)
+    return float(np.hypot(*(spot - _nearest(spot, two))))
+
+
+def _nearest(place: Floats, line: Floats) -> Floats:
+    along = line[1] - line[0]
+    share = np.clip((place - line[0]) @ along / (along @ along), 0.0, 1.0)
+    nearest: Floats = line[0] + share * along
+    return nearest
 
 
 def _notes(notes: Sequence[str]) -> list[Finding]:

@@ -31,6 +31,7 @@ from foldmill.exchange.elements import array, coordinates
 from foldmill.exchange.graph import Graph, middle, of_polygons, of_triangles
 from foldmill.exchange.json_text import Frame, plains
 from foldmill.exchange.keys import ADDED, DESIGN, DESIGNED, POLYGON, SEAMS, SYMMETRY
+from foldmill.exchange.limits import DEFAULT, Limits
 from foldmill.exchange.sheet import Sheet, read_sheet, scale
 from foldmill.folded import FoldedForm
 from foldmill.pattern import Floats
@@ -52,7 +53,13 @@ def read(text: str, name: str = "", *, planarise: bool = False) -> Fold:
         raise UnreadableFile(f"{place}{error}") from None
 
 
-def read_data(data: Frame, *, planarise: bool = False, frame: int | None = None) -> Fold:
+def read_data(
+    data: Frame,
+    *,
+    planarise: bool = False,
+    frame: int | None = None,
+    limits: Limits = DEFAULT,
+) -> Fold:
     """Return the fold in the object of a FOLD file, as ``read`` does.
 
     frame : the number of the frame that is the pattern; by default the first that can be. Raises
@@ -60,14 +67,17 @@ def read_data(data: Frame, *, planarise: bool = False, frame: int | None = None)
     """
     every = frames.frames_of(data)
     first, second = frames.pick(every, frame)
-    return _read(data, every, first, second, planarise)
+    return _read(data, every, first, second, limits.lines if planarise else None)
 
 
-def _read(data: Frame, every: list[Frame], first: int, second: int | None, planarise: bool) -> Fold:
+def _read(
+    data: Frame, every: list[Frame], first: int, second: int | None, most: int | None
+) -> Fold:
+    """most : edges that may come of mending its lines; None where they are not mended."""
     notes: list[str] = []
     frame = frames.resolved(every, first)
     frame |= {key: value for key, value in data.items() if key.startswith("file_")}
-    mended = mending.mend(frame, notes) if planarise else mending.Mended(frame, ())
+    mended = mending.Mended(frame, ()) if most is None else mending.mend(frame, notes, most)
     if mended.changes:
         # What else the file holds is about lines that are no longer those.
         frame, every, first, second = mended.frame, [mended.frame], 0, None

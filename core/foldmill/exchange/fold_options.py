@@ -10,6 +10,7 @@ import numpy as np
 from foldmill.design import Fold
 from foldmill.exchange import fold as fold_file
 from foldmill.exchange import frames, json_text
+from foldmill.exchange.angle_units import in_degrees
 from foldmill.exchange.elements import array, coordinates
 from foldmill.exchange.json_text import Frame
 from foldmill.exchange.keys import MILLIMETRES
@@ -33,6 +34,7 @@ def read(content: bytes, options: Options, limits: Limits = DEFAULT) -> tuple[Fo
         for key in _COUNTED:
             if isinstance(frame.get(key), list):
                 limits.check_lines(len(frame[key]))
+    data, doubted = in_degrees(data, options.angles)
     notes: list[str] = []
     flat = laid_flat(data, options.frame, notes)
     options = options if flat is data else replace(options, frame=0)
@@ -41,9 +43,15 @@ def read(content: bytes, options: Options, limits: Limits = DEFAULT) -> tuple[Fo
     unit = _unit(every, options)
     if _is_scaled(options):
         data = _scaled(data, every, options, unit)
-    fold = fold_file.read_data(data, planarise=options.planarise, frame=options.frame)
+    fold = fold_file.read_data(
+        data, planarise=options.planarise, frame=options.frame, limits=limits
+    )
     notes += fold.meta["fold"]["notes"]
-    findings = [*said, *(Finding("import-note", Severity.INFO, "", note) for note in notes)]
+    findings = [
+        *said,
+        *doubted,
+        *(Finding("import-note", Severity.INFO, "", note) for note in notes),
+    ]
     told = Fold(
         fold.pattern,
         fold.folded,

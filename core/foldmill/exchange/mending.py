@@ -77,19 +77,20 @@ def findings_of(changes: Sequence[Change]) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def mend(frame: Frame, notes: list[str]) -> Mended:
+def mend(frame: Frame, notes: list[str], most: int | None = None) -> Mended:
     """Return a frame whose lines meet only at vertices; the frame itself where they do already.
 
     A mended frame is in mm and lists no faces; arrays over its edges and vertices follow them, with
     null for a new vertex. Every part of a split line keeps letter and fold angle. Raises
-    UnreadableFile where creases of different fold angles lie upon each other, saying where.
+    UnreadableFile where creases of different fold angles lie upon each other, saying where, and
+    InvalidPattern where the lines would become more than ``most``.
     """
     if OF in frame and CUT in frame:
         return Mended(frame, ())  # written by foldmill, the banks of its cuts upon each other
     faces, unit = faces_of(frame), scale(frame, [])
     points = np.array(coordinates(frame, 2), float) * unit
     graph = graph_of(frame, faces, [])
-    found = _planarised(points, graph)
+    found = _planarised(points, graph, most)
     if not found.changes or _has_slit(frame):
         return Mended(frame, ())
     _refuse_conflicts(found.changes, graph)
@@ -100,12 +101,13 @@ def mend(frame: Frame, notes: list[str]) -> Mended:
     return Mended(_frame(frame, graph, found, points, mirrored), found.changes)
 
 
-def _planarised(points: Floats, graph: Graph) -> Planar:
+def _planarised(points: Floats, graph: Graph, most: int | None) -> Planar:
     """Return the planar graph of the lines; those of one letter and one angle have one role."""
     kinds = list(zip(graph.letters, graph.angles, strict=True))
     names = {kind: number for number, kind in enumerate(dict.fromkeys(kinds))}
     ranks = [RANKS[letter] for letter in graph.letters]
-    return planarise_graph(points, np.array(graph.edges, np.intp), [names[k] for k in kinds], ranks)
+    roles = [names[kind] for kind in kinds]
+    return planarise_graph(points, np.array(graph.edges, np.intp), roles, ranks, most)
 
 
 def _has_slit(frame: Frame) -> bool:

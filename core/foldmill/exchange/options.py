@@ -19,6 +19,8 @@ OTHER = "other"
 SIDES = ("front", "back")
 BY = ("auto", "layer", "colour")
 LOOSE = ("refuse", "drop")
+RADIANS = "radians"
+ANGLES = ("degrees", RADIANS)
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,9 @@ class Options:
     planarise: bool = False
     """FOLD: whether lines that cross or lie on each other are mended; other formats always are."""
 
+    angles: str | None = None
+    """FOLD: what its fold angles are in, one of ANGLES; degrees, where they can be, by default."""
+
     def __post_init__(self) -> None:
         for name in ("scale", "width", "gap"):
             value = getattr(self, name)
@@ -58,6 +63,8 @@ class Options:
                 raise InvalidInput(f"--{name} must be a positive number, not {value:g}.")
         for name, known in (("side", SIDES), ("by", BY), ("loose", LOOSE)):
             _one_of(name, getattr(self, name), known)
+        if self.angles is not None:
+            _one_of("angles", self.angles, ANGLES)
         if self.unit is not None:
             _one_of("unit", self.unit, tuple(UNITS))
         if self.width is not None and (self.scale is not None or self.unit is not None):

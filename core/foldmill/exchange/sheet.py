@@ -15,6 +15,7 @@ from foldmill.exchange.graph import Graph, is_order, numbered
 from foldmill.exchange.json_text import Frame
 from foldmill.exchange.keys import ADDED, CUT, DERIVED, JOIN, MILLIMETRES, OF, POLYGON, WRITTEN
 from foldmill.pattern import Assignment, CreasePattern, Floats, codes_of
+from foldmill.triangulation import triangulate
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +173,7 @@ def _check_sides(graph: Graph) -> None:
 
 def _triangulated(points: Floats, graph: Graph) -> CreasePattern:
     _check_polygons(points, graph.faces)
-    faces, owners, extra = planar.triangulate(points, graph.faces)
+    faces, owners, extra = triangulate(points, graph.faces)
     old, new = len(graph.edges), len(extra)
     return CreasePattern(
         points,

@@ -83,13 +83,16 @@ def planarise(
     roles: ArrayLike | None = None,
     ranks: ArrayLike | None = None,
     touch: float = TOUCH_MM,
+    most: int | None = None,
 ) -> Planar:
     """Return the planar graph of straight lines.
 
     segments : (n, 2, 2) mm; roles, ranks : (n,) whole numbers, by default all 0; touch : mm within
     which lines meet. Of lines that lie on each other that of the highest rank stays, with its role;
     of those the longest, and of equal ones the first. Lines of different roles are split where they
-    cross, and never joined. Raises InvalidInput for anything else.
+    cross, and never joined. most : pieces that may come of them, by default any number. Raises
+    InvalidInput for anything else, InvalidPattern for lines that meet so often that they would
+    become more pieces, with the number.
     """
     given = np.asarray(segments, float)
     if given.ndim != 3 or given.shape[1:] != (2, 2) or not np.isfinite(given).all():
@@ -98,20 +101,24 @@ def planarise(
     kinds = none if roles is None else np.asarray(roles, np.intp)
     order = none if ranks is None else np.asarray(ranks, np.intp)
     points, ends = weld(given.reshape(-1, 2), touch)
-    return _graph(points, ends.reshape(-1, 2), kinds, order, touch)
+    return _graph(points, ends.reshape(-1, 2), kinds, order, touch, most)
 
 
 def planarise_graph(
-    points: Floats, edges: Indices, roles: ArrayLike, ranks: ArrayLike | None = None
+    points: Floats,
+    edges: Indices,
+    roles: ArrayLike,
+    ranks: ArrayLike | None = None,
+    most: int | None = None,
 ) -> Planar:
     """Return the planar graph of lines between vertices, which are welded where they coincide.
 
-    points : (V, 2) mm; edges : (E, 2); roles, ranks : (E,) as of ``planarise``.
+    points : (V, 2) mm; edges : (E, 2); roles, ranks : (E,), and most, as of ``planarise``.
     """
     kinds = np.asarray(roles, np.intp)
     order = np.zeros(len(edges), np.intp) if ranks is None else np.asarray(ranks, np.intp)
     own, same = weld(points, TOUCH_MM)
-    found = _graph(own, same[edges], kinds, order)
+    found = _graph(own, same[edges], kinds, order, most=most)
     used = np.unique(edges)
     _, first = np.unique(same[used], return_index=True)
     spare = np.delete(used, first)
@@ -125,7 +132,12 @@ def planarise_pattern(pattern: CreasePattern) -> Planar:
 
 
 def _graph(
-    points: Floats, ends: Indices, kinds: Indices, ranks: Indices, touch: float = TOUCH_MM
+    points: Floats,
+    ends: Indices,
+    kinds: Indices,
+    ranks: Indices,
+    touch: float = TOUCH_MM,
+    most: int | None = None,
 ) -> Planar:
     lengths = np.hypot(*(points[ends[:, 1]] - points[ends[:, 0]]).T)
     whole = ends[:, 0] != ends[:, 1]
@@ -133,7 +145,7 @@ def _graph(
     edges, own, given = ends[whole], np.flatnonzero(whole), len(points)
     met: set[int] = set()
     for _ in range(_ROUNDS):
-        points, edges, own, where = split(points, edges, own, touch)
+        points, edges, own, where = split(points, edges, own, touch, most)
         if not len(where):
             break
         met |= set(where.tolist())

@@ -60,6 +60,13 @@ class LooseChoice(StrEnum):
     DROP = "drop"
 
 
+class AnglesChoice(StrEnum):
+    """What fold angles of a file are in."""
+
+    DEGREES = "degrees"
+    RADIANS = "radians"
+
+
 _OPTIONS: dict[str, Any] = {
     "width": (
         float | None,
@@ -84,6 +91,7 @@ _OPTIONS: dict[str, Any] = {
         "FOLD: mend lines that cross or lie upon each other, and say how; others always are.",
         False,
     ),
+    "angles": (AnglesChoice | None, "FOLD: what its fold angles are in; else degrees.", None),
 }
 _SPELT = {"named": "--as"}
 

@@ -106,7 +106,9 @@ def _read(reader: Reader, content: bytes, options: Options, limits: Limits) -> t
     found = reader.read(content, options, limits)
     if isinstance(found, Sized):
         return found.fold, found.is_sized
-    return _with_side(fold_of(found, options), options), is_known(found.millimetres, options)
+    return _with_side(fold_of(found, options, limits), options), is_known(
+        found.millimetres, options
+    )
 
 
 def _called(fold: Fold, reader: Reader, source: Path | bytes) -> Fold:

@@ -153,6 +153,8 @@ class Upload(Wire):
     """mm within which ends of lines meet."""
     loose: Literal["refuse", "drop"] = "refuse"
     """What becomes of lines that end inside the sheet."""
+    angles: Literal["degrees", "radians"] | None = None
+    """FOLD: what its fold angles are in; else degrees."""
 
 
 class Pattern(Wire):

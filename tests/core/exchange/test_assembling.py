@@ -10,10 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from foldmill import Fold, UnreadableFile
+from foldmill import Fold, InvalidPattern, UnreadableFile
 from foldmill.check import check
 from foldmill.exchange.assembling import fold_of
 from foldmill.exchange.drawing import Look, drawing_of
+from foldmill.exchange.limits import Limits
 from foldmill.exchange.options import Options
 from foldmill.finding import Severity
 
@@ -163,3 +164,25 @@ def test_slits_so_dense_that_few_ties_do_not_do_are_filled_about() -> None:
     assert lines(fold, "C") == len(cuts)
     assert lines(fold, "F") > 2 * len(cuts)
     assert not check(fold).has_errors
+
+
+def test_creases_in_a_strip_nobody_can_fold_are_refused_by_place_and_width() -> None:
+    drawn = [*BOX, (0, 40, 100, 40), (0, 40.008, 100, 39.996)]
+    with pytest.raises(UnreadableFile, match=r"side by side at .* mm, 0\.\d+ mm apart") as refused:
+        sheet(drawn, "BBBBMV")
+    assert "--gap" in str(refused.value)
+    kept = sheet(drawn, "BBBBMV", gap=0.001)
+    assert (lines(kept, "M"), lines(kept, "V")) == (2, 2)
+
+
+def test_a_drawing_whose_lines_cross_too_often_is_refused_before_it_is_cut_up() -> None:
+    spread = range(1, 20)
+    drawn = [
+        *BOX,
+        *((0, 5 * k, 100, 5 * k) for k in spread),
+        *((5 * k, 0, 5 * k, 100) for k in spread),
+    ]
+    drawing = drawing_of(drawn, [Look(x) for x in "BBBB" + 38 * "M"], down=False, millimetres=1.0)
+    assert lines(fold_of(drawing, Options()), "M") == 2 * 19 * 20
+    with pytest.raises(InvalidPattern, match=r"42 lines cross or meet .* the most .* is 500\."):
+        fold_of(drawing, Options(), Limits(lines=500))
