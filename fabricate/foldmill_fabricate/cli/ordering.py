@@ -21,10 +21,11 @@ def ordered(
     machine: str,
     options: Sequence[str],
 ) -> Order:
-    """Return an order; raises UnknownName or InvalidParameters for what the family refuses."""
+    """Return an order; raises UnknownName or InvalidInput with the sentence."""
     from foldmill import installed
     from foldmill_fabricate.cli.parameters import gather
     from foldmill_fabricate.jobs import Order
+    from foldmill_fabricate.plan_options import read_options
 
     design = installed().design(family)
     given = [f"--{name}={value}" for name, value in map(_pair, params)]
@@ -35,7 +36,7 @@ def ordered(
         params=values.model_dump(mode="json"),
         material=material,
         machine=machine,
-        options={name: _value(name, value) for name, value in map(_pair, options)},
+        options=read_options({name: _value(name, value) for name, value in map(_pair, options)}),
     )
 
 

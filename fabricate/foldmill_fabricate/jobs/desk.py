@@ -14,7 +14,6 @@ from typing import Protocol
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.jobs.errors import JobRefused
 from foldmill_fabricate.jobs.judging import judge
-from foldmill_fabricate.jobs.ordering import options
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter, find
@@ -110,7 +109,6 @@ class Desk:
         if bool(asked.plan) == (asked.design is not None):
             raise JobRefused("Submit a plan, or a design to be planned: one of both.")
         if asked.design is not None:
-            options(asked.design.options)
             name = f"{asked.design.family} {asked.design.preset}".strip()
             about = About(name, asked.design.material, asked.design.machine)
         else:

@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
+from foldmill_fabricate.confining import PLANNING, Limits
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.service.models import (
     DesignRequest,
@@ -17,7 +18,7 @@ from foldmill_fabricate.service.models import (
     Upload,
     Verification,
 )
-from foldmill_fabricate.service.sandbox import Limits, Sandbox
+from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.storage import ABOUT, JOB, Storage, read, write
 
 WORK = "foldmill_fabricate.service.work"
@@ -33,7 +34,6 @@ PATTERN = "pattern.fold"
 CHECK, VERIFIED = "check.json", "verified.json"
 READING = Limits(seconds=30, memory_mb=1024, file_mb=128)
 DESIGNING = Limits(seconds=60, memory_mb=1024, file_mb=128)
-PLANNING = Limits(seconds=600, memory_mb=2048, file_mb=512)
 
 
 class Desk:

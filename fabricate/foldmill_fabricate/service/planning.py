@@ -14,11 +14,12 @@ from typing import Any
 from foldmill import FoldmillError, installed
 from foldmill.errors import InvalidInput, UnknownName
 from foldmill_fabricate import profiles, shelf
+from foldmill_fabricate.confining import PLANNING
 from foldmill_fabricate.hooks import FORMATS
 from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.service.desk import PATTERN, PLANNING, Desk
+from foldmill_fabricate.service.desk import PATTERN, Desk
 from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy

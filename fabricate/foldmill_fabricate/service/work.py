@@ -29,11 +29,11 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.plan_options import PlanOptions
 from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.service import as_cut as as_cuts
 from foldmill_fabricate.service import unpacking
 from foldmill_fabricate.service.bounds import MOST_UPLOAD
-from foldmill_fabricate.service.models import PlanOptions
 from foldmill_fabricate.verify import verify_folder
 
 LIMITS = Limits(size=MOST_UPLOAD)
@@ -91,7 +91,7 @@ def plan(
     style = Style(profiles.find(profile), "R2000")
     of, on = Material.model_validate(material), Machine.model_validate(machine)
     fold = _fold(folder)
-    made = make(fold, of, on, **PlanOptions.model_validate(options).as_made())
+    made = make(fold, of, on, **PlanOptions.model_validate(options).for_make())
     written = job_folder.write(fold, made, folder / "job", formats, style)
     return _account(written, folder / "job")
 
