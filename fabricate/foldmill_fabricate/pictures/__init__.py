@@ -6,6 +6,7 @@ is imported inside the functions, without pyplot, so that nobody's global state 
 
 from foldmill_fabricate.pictures.angles import angles_picture
 from foldmill_fabricate.pictures.as_cut import as_cut_picture
+from foldmill_fabricate.pictures.as_cut_svg import as_cut_svg
 from foldmill_fabricate.pictures.faults import faults_picture
 from foldmill_fabricate.pictures.folded import folded_picture
 from foldmill_fabricate.pictures.gallery import gallery
@@ -20,6 +21,7 @@ from foldmill_fabricate.pictures.stages import stages_picture
 __all__ = [
     "angles_picture",
     "as_cut_picture",
+    "as_cut_svg",
     "faults_picture",
     "folded_picture",
     "gallery",

@@ -9,6 +9,8 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from foldmill_fabricate.confining import PLANNING, Limits
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.service.models import (
@@ -31,6 +33,7 @@ DRAWINGS = {
 }
 """What a pattern can be drawn as, and its media type."""
 PATTERN = "pattern.fold"
+_SHEET = TypeAdapter(SheetRecord)
 CHECK, VERIFIED = "check.json", "verified.json"
 READING = Limits(seconds=30, memory_mb=1024, file_mb=128)
 DESIGNING = Limits(seconds=60, memory_mb=1024, file_mb=128)
@@ -92,12 +95,8 @@ class Desk:
 
     async def as_cut(self, job: Path, sheet: SheetRecord, face: str) -> bytes:
         """Return a drawing, SVG, of how a face of a sheet is cut by now; job : its job folder."""
-        strokes = {
-            record.program.name: {"certain": record.certain, "doubtful": record.doubtful}
-            for record in sheet.records
-        }
-        title = f"sheet {sheet.id}, {face}"
-        arguments = {"job": str(job), "face": face, "strokes": strokes, "title": title}
+        told = _SHEET.dump_python(sheet, mode="json")
+        arguments = {"job": str(job), "face": face, "sheet": told}
         async with self.folder() as folder:
             await self.call("as_cut", arguments, folder, DESIGNING, "The drawing")
             return (folder / "as-cut.svg").read_bytes()
