@@ -93,7 +93,7 @@ class Desk:
     ) -> None:
         self.places, self.plotters = places, plotters
         self.store = store or JobStore(places.ledger)
-        self.plans = Plans(places.plans)
+        self.plans = Plans(places.plans, places.keep_days)
 
     def keep(self, folder: Path) -> str:
         """Keep a job folder; return the id of its plan."""

@@ -55,7 +55,7 @@ class Host:
         self._lock = _locked(places)
         try:
             self.store = JobStore(places.ledger)
-            self.plans = Plans(places.plans)
+            self.plans = Plans(places.plans, places.keep_days)
             self._leaving = Event()
             self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
             self._tokens: dict[str, int] = {}

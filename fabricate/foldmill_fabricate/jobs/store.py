@@ -25,7 +25,7 @@ from foldmill_fabricate.jobs.values import (
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
-from foldmill_fabricate.plotter.ledger.tables import connect, reading
+from foldmill_fabricate.plotter.ledger.tables import SHEETS, connect, reading
 from foldmill_fabricate.plotter.ledger.writing import stamp
 
 PAUSE, CANCEL = "pause", "cancel"
@@ -121,6 +121,13 @@ class JobStore:
             wanted = wanted.where(JOBS.c.plotter == plotter)
         with reading(self._engine) as at:
             return [rows.record(at, row) for row in at.execute(wanted).all()]
+
+    def plans_needed(self) -> set[str]:
+        """Return the ids of the plans that a job, or the record of a sheet, refers to."""
+        with reading(self._engine) as at:
+            by_jobs = at.execute(select(JOBS.c.plan).distinct()).scalars().all()
+            by_sheets = at.execute(select(SHEETS.c.job).distinct()).scalars().all()
+        return {*by_jobs, *by_sheets} - {""}
 
     def due(self) -> dict[str, int]:
         """Return how many jobs of each plotter wait for it or have it."""

@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 import json
 import shutil
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -23,10 +24,9 @@ from foldmill_fabricate.service.desk import PATTERN, Desk
 from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
-from foldmill_fabricate.service.storage import JOB, REFUSED, REQUEST, read, write
+from foldmill_fabricate.service.storage import DONE, JOB, REFUSED, REQUEST, read, write
 from foldmill_fabricate.writers import writer
 
-DONE = "done.json"
 _INTERRUPTED = "The service ended while this was planned; send the request again."
 
 
@@ -89,7 +89,9 @@ class Plans:
 
     def status(self, digest: str) -> PlanStatus:
         """Return how a plan stands; raises NoSuch."""
-        place = self._storage.plan(digest)
+        return self._status(digest, self._storage.plan(digest))
+
+    def _status(self, digest: str, place: Path) -> PlanStatus:
         head = {"id": digest, **read(place / REQUEST)}
         if (place / DONE).is_file():
             return PlanStatus.model_validate({**head, **read(place / DONE), "state": "done"})
@@ -103,7 +105,11 @@ class Plans:
 
     def every(self) -> list[PlanStatus]:
         """Return all plans, by id."""
-        return [self.status(digest) for digest in self._storage.plans()]
+        found = []
+        for digest, place in self._storage.plans():
+            with suppress(FileNotFoundError):  # thrown away meanwhile
+                found.append(self._status(digest, place))
+        return found
 
     def job(self, digest: str) -> Path:
         """Return the job folder of a plan that is done; raises NoSuch where there is none."""
