@@ -63,7 +63,7 @@ class JobStore:
         """
         content = rows.digest(asked)
         if asked.key and (known := self._by_key(asked.key)):
-            return _same(known, content, asked.key, self)
+            return _same(known, asked, self)
         try:
             with self._engine.begin() as at:
                 name = rows.new_id(at)
@@ -77,7 +77,7 @@ class JobStore:
             known = self._by_key(asked.key) if asked.key else None
             if known is None:
                 raise
-            return _same(known, content, asked.key, self)
+            return _same(known, asked, self)
         return self.job(name)
 
     def _by_key(self, key: str) -> Any:
@@ -361,10 +361,10 @@ class JobStore:
         at.execute(insert(EVENTS).values(state=state.value, **row))
 
 
-def _same(row: Any, content: str, key: str, store: JobStore) -> JobRecord:
-    if row.content != content:
+def _same(row: Any, asked: Submission, store: JobStore) -> JobRecord:
+    if not rows.is_same(row, asked):
         raise Clash(
-            f"The key {key!r} was used before for job {row.id}, which is something else. Take "
-            "another key for this one."
+            f"The key {asked.key!r} was used before for job {row.id}, which is something else. "
+            "Take another key for this one."
         )
     return store.job(row.id)

@@ -17,6 +17,7 @@ from foldmill.errors import InvalidInput, UnknownName
 from foldmill_fabricate import profiles, shelf
 from foldmill_fabricate.confining import PLANNING
 from foldmill_fabricate.hooks import FORMATS
+from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -79,6 +80,7 @@ class Plans:
         order = await self._ordered(request)
         digest = order.digest
         place = self._storage.begin_plan(digest, order.head)
+        self._forget_lost(place)
         if digest not in self._tasks and not (place / DONE).is_file():
             task = asyncio.create_task(self._make(digest, order))
             self._tasks[digest] = task
@@ -86,6 +88,14 @@ class Plans:
             if task.done() and task.exception() is not None:
                 raise task.exception() or AssertionError
         return self.status(digest)
+
+    def _forget_lost(self, place: Path) -> None:
+        """Forget that a plan is done where its job folder is gone; else ask for that folder."""
+        try:
+            if (place / DONE).is_file():
+                self._kept.folder(read(place / DONE)["plan"])
+        except NoSuchJob:
+            (place / DONE).unlink()
 
     def status(self, digest: str) -> PlanStatus:
         """Return how a plan stands; raises NoSuch."""

@@ -83,6 +83,8 @@ def test_what_no_job_needs_goes_after_its_days_and_a_history_stays_whole(left: L
         for row in needed.files:
             assert status(service, f"jobs/{job}/files/{row.name}") == 200
         assert planned(service, 120) == idle, "asked for anew it is the same"
+        shutil.rmtree(state / "plans" / idle.plan)
+        assert planned(service, 120) == idle, "and made once more where its files were lost"
 
 
 def test_what_was_asked_for_yesterday_stays(left: Left) -> None:
