@@ -19,7 +19,7 @@ from foldmill_fabricate.jobs.keeping import DAY
 from foldmill_fabricate.service.models import PlanRequest, PlanStatus
 
 Left = tuple[Path, str, PlanStatus, PlanStatus]
-SHEET = {"material": "pp-0.75", "machine": "generic-hpgl-600"}
+HPGL = {"material": "pp-0.75", "machine": "generic-hpgl-600", "formats": ["hpgl"]}
 
 
 def age(state: Path, days: float) -> None:
@@ -39,7 +39,7 @@ def until(true: Callable[[], bool]) -> None:
 
 def planned(service: httpx.Client, side: float) -> PlanStatus:
     pattern = service.post("/api/v1/patterns", json=square(side)).json()["id"]
-    asked = PlanRequest.model_validate({"pattern": pattern, "formats": ["hpgl"], **SHEET})
+    asked = PlanRequest.model_validate({"pattern": pattern, **HPGL})
     with Client(str(service.base_url)) as client:
         return client.planned(asked)
 
@@ -83,18 +83,20 @@ def test_what_no_job_needs_goes_after_its_days_and_a_history_stays_whole(left: L
         for row in needed.files:
             assert status(service, f"jobs/{job}/files/{row.name}") == 200
         assert planned(service, 120) == idle, "asked for anew it is the same"
-        shutil.rmtree(state / "plans" / idle.plan)
-        assert planned(service, 120) == idle, "and made once more where its files were lost"
 
 
 def test_what_was_asked_for_yesterday_stays(left: Left) -> None:
-    state, _, _, idle = left
+    state, _, needed, idle = left
     age(state, 29)
     with running(state) as service:
         assert status(service, f"plans/{idle.id}/files/plan.json") == 200
-    for kept in ("plans", "service/plans", "service/patterns"):
-        ages = [time.time() - place.stat().st_mtime for place in (state / kept).iterdir()]
-        assert (min(ages) < DAY) == (kept != "service/patterns")
+        shutil.rmtree(state / "plans" / needed.plan)
+        asked = {"pattern": needed.pattern, **HPGL}
+        assert service.post("/api/v1/plans", json=asked).status_code == 202, "it is made once more"
+    for asked_for in (state / "plans" / idle.plan, state / "service/plans" / idle.id):
+        assert time.time() - asked_for.stat().st_mtime < DAY
+    left_alone = state / "service/patterns" / idle.pattern
+    assert time.time() - left_alone.stat().st_mtime > 28 * DAY
 
 
 def test_half_written_uploads_and_drafts_of_a_crash_are_gone_when_it_starts_again(
