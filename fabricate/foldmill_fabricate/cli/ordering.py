@@ -65,10 +65,11 @@ def ordered(
     machine: str,
     options: Sequence[str],
 ) -> Order:
-    """Return an order; raises UnknownName or InvalidParameters for what the family refuses."""
+    """Return an order; raises UnknownName or InvalidInput with the sentence."""
     from foldmill import installed
     from foldmill_fabricate.cli.parameters import gather
     from foldmill_fabricate.jobs import Order
+    from foldmill_fabricate.plan_options import read_options
 
     design = installed().design(family)
     given = [f"--{name}={value}" for name, value in map(_pair, params)]
@@ -79,7 +80,7 @@ def ordered(
         params=values.model_dump(mode="json"),
         material=material,
         machine=machine,
-        options=_chosen(options),
+        options=read_options(_chosen(options)),
     )
 
 

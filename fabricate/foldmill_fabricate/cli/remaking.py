@@ -40,7 +40,6 @@ def rest(
 
 def draw(ledger: Ledger, name: str, output: Path, job: Path | None) -> None:
     """Draw both faces of a sheet as its record says."""
-    from foldmill_fabricate.choosing import fit_on_record
     from foldmill_fabricate.files import write_whole
     from foldmill_fabricate.pictures.as_cut import as_cut_picture
     from foldmill_fabricate.verify import read_folder
@@ -48,8 +47,8 @@ def draw(ledger: Ledger, name: str, output: Path, job: Path | None) -> None:
     if output.suffix.lower() != ".png":
         raise FoldmillError(f"--output {output}: a sheet as cut is drawn as a PNG; name one.")
     sheet = ledger.sheet(name)
-    plan = read_folder(_folder(ledger, sheet, job)).plan
-    write_whole(output, as_cut_picture(plan, sheet, fit_on_record(ledger, sheet.id, plan)))
+    files = read_folder(_folder(ledger, sheet, job))
+    write_whole(output, as_cut_picture(files.plan, files.programs, sheet))
 
 
 def _folder(ledger: Ledger, sheet: SheetRecord, job: Path | None) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -37,6 +38,12 @@ def serve_command(
         list[str] | None,
         typer.Option(help="A plotter beside those of plotters.toml: NAME=PORT@MACHINE."),
     ] = None,
+    keep_days: Annotated[
+        int,
+        typer.Option(
+            min=1, help="Days for which what no job needs is kept after it was last asked for."
+        ),
+    ] = 30,
     host_name: Annotated[
         str, typer.Option(help="Of this computer, always the same; with a database of many.")
     ] = "",
@@ -61,6 +68,7 @@ def serve_command(
     from foldmill_fabricate.service.tokens import Scope, Tokens
 
     places = Places() if state is None else Places(state.absolute())
+    places = replace(places, keep_days=keep_days)
     tokens = Tokens(places.root)
     if new_token is not None:
         typer.echo(tokens.new(new_token, Scope(scope.value)))

@@ -16,7 +16,6 @@ from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.jobs.errors import JobRefused
 from foldmill_fabricate.jobs.judging import judge
-from foldmill_fabricate.jobs.ordering import options
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter, find
@@ -100,7 +99,7 @@ class Desk:
     ) -> None:
         self.places, self.plotters = places, plotters
         self.store = store or JobStore(places.ledger)
-        self.plans = Plans(places.plans)
+        self.plans = Plans(places.plans, places.keep_days)
 
     def keep(self, folder: Path) -> str:
         """Keep a job folder; return the id of its plan."""
@@ -126,7 +125,6 @@ class Desk:
         if bool(asked.plan) == (asked.design is not None):
             raise JobRefused("Submit a plan, or a design to be planned: one of both.")
         if asked.design is not None:
-            options(asked.design.options)
             name = f"{asked.design.family} {asked.design.preset}".strip()
             about = About(name, asked.design.material, asked.design.machine)
         else:

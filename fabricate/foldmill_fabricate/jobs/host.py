@@ -9,8 +9,10 @@ from pathlib import Path
 from threading import Event
 
 from filelock import FileLock, Timeout
+from pydantic import ValidationError
 
 from foldmill.errors import FoldmillError
+from foldmill.refusals import explain
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
 from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
 from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
@@ -53,7 +55,7 @@ class Host:
         self._lock = _locked(places)
         try:
             self.store = JobStore(places.ledger)
-            self.plans = Plans(places.plans)
+            self.plans = Plans(places.plans, places.keep_days)
             self._leaving = Event()
             self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
             self._tokens: dict[str, int] = {}
@@ -122,16 +124,19 @@ class Host:
         job = self.store.job(name)
         if job.state is not JobState.PLANNING:
             return
-        order = Order.model_validate_json(self.store.order(name))
         with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
             folder = Path(place) / "job"
             try:
+                order = Order.model_validate_json(self.store.order(name))
                 carry_out_elsewhere(order, folder, self._leaving, lambda: self._heed_order(name))
                 plan = self.plans.keep(folder)
             except (Leave, Cancelled):
                 return
             except (FoldmillError, OSError) as error:
                 self.store.refused(name, str(error))
+                return
+            except ValidationError as error:  # it was ordered when more was allowed
+                self.store.refused(name, explain(error, Order))
                 return
         self.store.planned(name, plan, self.plans.about(plan))
 

@@ -6,6 +6,7 @@ import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from foldmill_fabricate.jobs.keeping import KEEP_DAYS
 from foldmill_fabricate.plotter.ledger.ledger import state_folder
 
 DATABASE = "FOLDMILL_DATABASE"
@@ -19,6 +20,8 @@ class Places:
     root: Path = field(default_factory=state_folder)
     database: str = field(default_factory=lambda: os.environ.get(DATABASE, ""))
     """An SQLAlchemy URL such as postgresql+psycopg://user@host/name; empty for files."""
+    keep_days: int = KEEP_DAYS
+    """For how many days a service keeps what no job needs and nobody asks for."""
 
     @property
     def ledger(self) -> Path | str:

@@ -5,25 +5,26 @@ The plan holds its material and its machine whole, so a job's history has them a
 
 from __future__ import annotations
 
-import re
 import shutil
-import tempfile
+from collections.abc import Collection
 from pathlib import Path
 
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.folder import PLAN
 from foldmill_fabricate.jobs.errors import NoSuchJob
+from foldmill_fabricate.jobs.keeping import KEEP_DAYS, Keeping
 from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.passes import Plan
 
-_ID = re.compile(r"[0-9a-f]{64}")
-
 
 class Plans:
-    """The folders of plans; root : made where there is none."""
+    """The folders of plans; root : made where there is none.
 
-    def __init__(self, root: Path) -> None:
-        self._root = root
+    days : for how many what no job needs is kept; this only says so, ``throw_away`` does it.
+    """
+
+    def __init__(self, root: Path, days: int = KEEP_DAYS) -> None:
+        self._kept, self._days = Keeping(root, PLAN), days
 
     def keep(self, folder: Path) -> str:
         """Keep a copy of a job folder and return the id of its plan.
@@ -32,21 +33,25 @@ class Plans:
         """
         plan = _read(folder)
         name = plan.digest
-        if not (self._root / name).exists():
-            self._root.mkdir(parents=True, exist_ok=True)
-            draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self._root))
-            try:
+        if self._kept.find(name) is None:
+            with self._kept.draft() as draft:
                 _copy(plan, folder, draft)
-                _settle(draft, self._root / name)
-            finally:
-                shutil.rmtree(draft, ignore_errors=True)
+                self._kept.settle(draft, name)
         return name
 
     def folder(self, name: str) -> Path:
         """Return the folder of a plan; raises NoSuchJob for an id that none has."""
-        if not _ID.fullmatch(name) or not (self._root / name / PLAN).is_file():
-            raise NoSuchJob(f"There is no plan {name[:80]!r} here.")
-        return self._root / name
+        found = self._kept.find(name)
+        if found is None:
+            raise NoSuchJob(
+                f"There is no plan {name[:80]!r} here. One that no job needs is kept {self._days} "
+                "days after somebody last asked for it; plan it anew."
+            )
+        return found
+
+    def throw_away(self, days: float, needed: Collection[str]) -> list[str]:
+        """Throw away the plans that are not needed and nobody has asked for; return their ids."""
+        return self._kept.throw_away(days, needed)
 
     def plan(self, name: str) -> Plan:
         """Return a plan; raises NoSuchJob."""
@@ -82,12 +87,3 @@ def _copy(plan: Plan, folder: Path, draft: Path) -> None:
     for name in (*named, *(each for each in more if Path(each).name == each)):
         if (folder / name).is_file():
             shutil.copyfile(folder / name, draft / name)
-
-
-def _settle(draft: Path, place: Path) -> None:
-    """Put a complete folder in its place; another process may have done so meanwhile."""
-    try:
-        draft.rename(place)
-    except OSError:
-        if not place.is_dir():
-            raise

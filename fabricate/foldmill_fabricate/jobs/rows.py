@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import secrets
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic import ValidationError
 from sqlalchemy import Connection, Select, case, select
 
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.states import ACTIVE, JobState
 from foldmill_fabricate.jobs.tables import JOB_SHEETS, JOBS
-from foldmill_fabricate.jobs.values import Event, JobRecord, Submission
+from foldmill_fabricate.jobs.values import Event, JobRecord, Order, Submission
 from foldmill_fabricate.plotter.ledger.ledger import LETTERS
 from foldmill_fabricate.plotter.ledger.writing import person as person
 
@@ -31,8 +33,42 @@ class About:
 
 
 def digest(asked: Submission) -> str:
-    """Return what tells one submission from another, its key left out."""
-    return hashlib.sha256(asked.model_dump_json(exclude={"key"}).encode()).hexdigest()
+    """Return what tells one submission from another, its key left out.
+
+    Only what differs from the defaults counts: a later version that knows more to ask for has the
+    same digest for who does not ask for it.
+    """
+    told = asked.model_dump(mode="json", exclude={"key"}, exclude_defaults=True)
+    return _sha256(json.dumps(told, sort_keys=True))
+
+
+def is_same(row: Any, asked: Submission) -> bool:
+    """Tell whether a job's row is of the same submission, by this version or an earlier one."""
+    return row.content in {digest(asked), _earlier_digest(row.order, asked)}
+
+
+def _earlier_digest(order: str, asked: Submission) -> str:
+    """Return the digest that the first versions kept: over each field there was then, as written.
+
+    order : as the row has it, for no later version writes the same; empty where it is another.
+    """
+    if asked.design is not None and not _is_order(order, asked.design):
+        return ""
+    head = {"plan": asked.plan, "design": None, "plotter": asked.plotter, "copies": asked.copies}
+    told = {**head, "priority": asked.priority, "remakes": asked.remakes}
+    text = json.dumps(told, separators=(",", ":"), ensure_ascii=False)
+    return _sha256(text.replace('"design":null', f'"design":{order or "null"}', 1))
+
+
+def _is_order(text: str, design: Order) -> bool:
+    try:
+        return Order.model_validate_json(text) == design
+    except ValidationError:
+        return False
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def new_id(at: Connection) -> str:

@@ -25,7 +25,7 @@ from foldmill_fabricate.jobs.values import (
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
-from foldmill_fabricate.plotter.ledger.tables import connect, reading
+from foldmill_fabricate.plotter.ledger.tables import SHEETS, connect, reading
 from foldmill_fabricate.plotter.ledger.writing import stamp
 
 PAUSE, CANCEL = "pause", "cancel"
@@ -63,7 +63,7 @@ class JobStore:
         """
         content = rows.digest(asked)
         if asked.key and (known := self._by_key(asked.key)):
-            return _same(known, content, asked.key, self)
+            return _same(known, asked, self)
         try:
             with self._engine.begin() as at:
                 name = rows.new_id(at)
@@ -77,7 +77,7 @@ class JobStore:
             known = self._by_key(asked.key) if asked.key else None
             if known is None:
                 raise
-            return _same(known, content, asked.key, self)
+            return _same(known, asked, self)
         return self.job(name)
 
     def _by_key(self, key: str) -> Any:
@@ -121,6 +121,13 @@ class JobStore:
             wanted = wanted.where(JOBS.c.plotter == plotter)
         with reading(self._engine) as at:
             return [rows.record(at, row) for row in at.execute(wanted).all()]
+
+    def plans_needed(self) -> set[str]:
+        """Return the ids of the plans that a job, or the record of a sheet, refers to."""
+        with reading(self._engine) as at:
+            by_jobs = at.execute(select(JOBS.c.plan).distinct()).scalars().all()
+            by_sheets = at.execute(select(SHEETS.c.job).distinct()).scalars().all()
+        return {*by_jobs, *by_sheets} - {""}
 
     def due(self) -> dict[str, int]:
         """Return how many jobs of each plotter wait for it or have it."""
@@ -354,10 +361,10 @@ class JobStore:
         at.execute(insert(EVENTS).values(state=state.value, **row))
 
 
-def _same(row: Any, content: str, key: str, store: JobStore) -> JobRecord:
-    if row.content != content:
+def _same(row: Any, asked: Submission, store: JobStore) -> JobRecord:
+    if not rows.is_same(row, asked):
         raise Clash(
-            f"The key {key!r} was used before for job {row.id}, which is something else. Take "
-            "another key for this one."
+            f"The key {asked.key!r} was used before for job {row.id}, which is something else. "
+            "Take another key for this one."
         )
     return store.job(row.id)

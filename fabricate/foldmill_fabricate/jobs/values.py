@@ -8,6 +8,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from foldmill_fabricate.jobs.states import ENDED, JobState
+from foldmill_fabricate.plan_options import PlanOptions
 
 MOST_URGENT = 1000
 """The highest priority; the lowest is its negative."""
@@ -28,8 +29,8 @@ class Order(_Value):
     """of the family, by name; lengths in mm, angles in degrees"""
     material: str = Field(default="pp-0.75", max_length=100)
     machine: str = Field(default="generic-hpgl-600", max_length=100)
-    options: dict[str, Any] = Field(default_factory=dict)
-    """of planning, by the names of `foldmill plan`: blank, carrier, flip, score, relief …"""
+    options: PlanOptions = PlanOptions()
+    """of planning, by the names of `foldmill plan`"""
 
 
 class Submission(_Value):

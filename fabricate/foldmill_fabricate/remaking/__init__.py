@@ -5,7 +5,7 @@ what a person says of those in doubt; ``make`` plans the rest; ``write`` makes a
 """
 
 from foldmill_fabricate.remaking.make import remake
-from foldmill_fabricate.remaking.strokes import Account, Standing, accounts, lying
+from foldmill_fabricate.remaking.strokes import Account, Standing, accounts, before
 from foldmill_fabricate.remaking.words import Fate, Spoken, read_spoken
 from foldmill_fabricate.remaking.write import plan_rest, write_remake
 
@@ -15,7 +15,7 @@ __all__ = [
     "Spoken",
     "Standing",
     "accounts",
-    "lying",
+    "before",
     "plan_rest",
     "read_spoken",
     "remake",

@@ -104,11 +104,7 @@ def accounts(plan: Plan, sheet: SheetRecord, fit: Fit | None = None) -> list[Acc
     fit : how the reverse lay. Raises CannotPlan for another job's sheet, and where the programs are
     not those that were sent.
     """
-    if sheet.job != plan.digest:
-        raise CannotPlan(
-            f"Sheet {sheet.id} is one of {sheet.title or 'another job'}, begun from another plan "
-            "than this one. Name the folder that it was begun from."
-        )
+    refuse_other(plan, sheet)
     standing: dict[Owner, dict[int, Standing]] = {}
     program: dict[int, int] = {}
     for record, part in zip(sheet.records, plan.programs, strict=True):
@@ -119,6 +115,15 @@ def accounts(plan: Plan, sheet: SheetRecord, fit: Fit | None = None) -> list[Acc
         Account(face, setup, role, number, stroke, program[owner.setup], standing.get(owner, {}))
         for face, setup, role, number, stroke, owner in _every(plan)
     ]
+
+
+def refuse_other(plan: Plan, sheet: SheetRecord) -> None:
+    """Raise CannotPlan for a sheet that was begun from another plan."""
+    if sheet.job != plan.digest:
+        raise CannotPlan(
+            f"Sheet {sheet.id} is one of {sheet.title or 'another job'}, begun from another plan "
+            "than this one. Name the folder that it was begun from."
+        )
 
 
 def _counted(
@@ -147,18 +152,11 @@ def _every(plan: Plan) -> Iterator[tuple[Face, SetUp, Role, int, Stroke, Owner]]
                     count += 1
 
 
-def lying(plan: Plan, sheet: SheetRecord, fit: Fit | None = None) -> list[Account]:
-    """Return every stroke of a sheet, those too that were there before ``plan`` went on with it.
-
-    Raises CannotPlan as ``accounts`` does.
-    """
-    return [*_before(plan), *accounts(plan, sheet, fit)]
-
-
-def _before(plan: Plan) -> Iterator[Account]:
+def before(plan: Plan) -> Iterator[Account]:
+    """Yield the strokes that were on a sheet when ``plan`` went on with it."""
     if plan.remakes is None:
         return
-    yield from _before(plan.remakes.origin)
+    yield from before(plan.remakes.origin)
     cut = {(one.setup, one.role, k) for one in plan.remakes.there for k in one.strokes}
     for face, setup, role, number, stroke, _ in _every(plan.remakes.origin):
         if (setup.number, role, number) in cut:

@@ -18,6 +18,7 @@ from foldmill_fabricate.service.logs import PREFIX, Watch
 from foldmill_fabricate.service.metrics import Metrics, computing
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.planning import Plans
+from foldmill_fabricate.service.retention import Retention
 from foldmill_fabricate.service.routes import catalogue, events, health, jobs, patterns, plans
 from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.security import Guard, Policy
@@ -61,10 +62,11 @@ def create(
 
 def _furnish(app: FastAPI, workshop: Workshop, policy: Policy, sandbox: Sandbox | None) -> None:
     """Give the application what its routes use."""
-    storage = Storage(workshop.places.root / "service")
+    storage = Storage(workshop.places.root / "service", workshop.places.keep_days)
     desk = Desk(storage, sandbox or Sandbox(storage.scratch, [WORK]))
     app.state.policy, app.state.workshop, app.state.desk = policy, workshop, desk
     app.state.plans = Plans(desk, workshop.desk.plans)
+    app.state.retention = Retention(storage, workshop.desk)
     app.state.stopping, app.state.followers = asyncio.Event(), Followers()
     app.state.metrics = Metrics()
     app.state.metrics.ask(computing(lambda: desk.sandbox.load))
@@ -79,7 +81,11 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     try:
         await asyncio.to_thread(installed)
         await asyncio.to_thread(workshop.start)
-        yield
+        throwing_away = asyncio.create_task(app.state.retention.run())
+        try:
+            yield
+        finally:
+            throwing_away.cancel()
     finally:
         app.state.stopping.set()
         await asyncio.to_thread(workshop.close)

@@ -9,6 +9,9 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter
+
+from foldmill_fabricate.confining import PLANNING, Limits
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.service.models import (
     DesignRequest,
@@ -17,7 +20,7 @@ from foldmill_fabricate.service.models import (
     Upload,
     Verification,
 )
-from foldmill_fabricate.service.sandbox import Limits, Sandbox
+from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.storage import ABOUT, JOB, Storage, read, write
 
 WORK = "foldmill_fabricate.service.work"
@@ -30,10 +33,10 @@ DRAWINGS = {
 }
 """What a pattern can be drawn as, and its media type."""
 PATTERN = "pattern.fold"
+_SHEET = TypeAdapter(SheetRecord)
 CHECK, VERIFIED = "check.json", "verified.json"
 READING = Limits(seconds=30, memory_mb=1024, file_mb=128)
 DESIGNING = Limits(seconds=60, memory_mb=1024, file_mb=128)
-PLANNING = Limits(seconds=600, memory_mb=2048, file_mb=512)
 DRAWN = Limits(seconds=90, memory_mb=1024, file_mb=128)
 """Of an HP-GL drawing that is planned: who sends it waits for the answer."""
 
@@ -94,12 +97,8 @@ class Desk:
 
     async def as_cut(self, job: Path, sheet: SheetRecord, face: str) -> bytes:
         """Return a drawing, SVG, of how a face of a sheet is cut by now; job : its job folder."""
-        strokes = {
-            record.program.name: {"certain": record.certain, "doubtful": record.doubtful}
-            for record in sheet.records
-        }
-        title = f"sheet {sheet.id}, {face}"
-        arguments = {"job": str(job), "face": face, "strokes": strokes, "title": title}
+        told = _SHEET.dump_python(sheet, mode="json")
+        arguments = {"job": str(job), "face": face, "sheet": told}
         async with self.folder() as folder:
             await self.call("as_cut", arguments, folder, DESIGNING, "The drawing")
             return (folder / "as-cut.svg").read_bytes()

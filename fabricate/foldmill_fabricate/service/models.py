@@ -12,12 +12,12 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from foldmill.finding import Finding, Severity
+from foldmill_fabricate.plan_options import PlanOptions
 
 Digest = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 """A SHA-256 in hexadecimal."""
 Slug = Annotated[str, Field(min_length=1, max_length=100)]
 """The name of a family, a material or a machine."""
-_MOST_MM = 1e5
 
 
 class Wire(BaseModel):
@@ -194,52 +194,6 @@ class Verification(Report):
     """Whether the programs of a plan are what was planned."""
 
     ok: bool
-
-
-_Side = Annotated[float, Field(gt=0, lt=_MOST_MM)]
-_Count = Annotated[int, Field(ge=1, le=1000)]
-_Celsius = Annotated[float, Field(ge=-50, le=150)]
-Process = Literal[
-    "half-cut",
-    "crease-wheel",
-    "stylus",
-    "perforation",
-    "v-score",
-    "through-cut",
-    "score-and-snap",
-    "pen",
-]
-
-
-class PlanOptions(Wire):
-    """How a sheet is planned; what is left out is as the material and the machine have it."""
-
-    blank: tuple[_Side, _Side] | None = None
-    """Width and height, mm; by default the material's stock size."""
-    carrier: tuple[_Side, _Side] | None = None
-    """Width and height, mm; by default the machine's mat."""
-    flip: Literal["left-right", "end-over-end"] = "left-right"
-    unassigned: Literal["front", "reverse", "skip"] | None = None
-    """Where creases without mountain or valley are scored."""
-    score: Process | None = None
-    """How creases are made; by default the first the machine can do."""
-    outline: Process | None = None
-    """How the outline is made; by default the first the machine can do."""
-    relief: Literal["none", "needed", "all"] = "none"
-    """Which vertices get a hole in which grooves end."""
-    copies: _Count = 1
-    grid: tuple[_Count, _Count] | None = None
-    """Columns and rows of copies, instead of ``copies``."""
-    registration: Literal["holes", "l-marks", "edge", "pins", "none"] = "holes"
-    """What keeps the faces in register."""
-    temperatures: tuple[_Celsius, _Celsius] | None = None
-    """°C of the sheet at the front pass and at the reverse pass."""
-
-    def as_made(self) -> dict[str, Any]:
-        """Return the options as the planner names them."""
-        given = self.model_dump()
-        renamed = {"register": given.pop("registration"), "cut": given.pop("outline")}
-        return {**given, **renamed}
 
 
 class PlanRequest(Wire):

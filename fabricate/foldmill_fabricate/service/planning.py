@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 import json
 import shutil
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -14,19 +15,20 @@ from typing import Any
 from foldmill import FoldmillError, installed
 from foldmill.errors import InvalidInput, UnknownName
 from foldmill_fabricate import profiles, shelf
+from foldmill_fabricate.confining import PLANNING
 from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.hooks import FORMATS
+from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.service.desk import DRAWN, PATTERN, PLANNING, Desk
+from foldmill_fabricate.service.desk import DRAWN, PATTERN, Desk
 from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
-from foldmill_fabricate.service.storage import JOB, REFUSED, REQUEST, read, write
+from foldmill_fabricate.service.storage import DONE, JOB, REFUSED, REQUEST, read, write
 from foldmill_fabricate.writers import writer
 
-DONE = "done.json"
 _INTERRUPTED = "The service ended while this was planned; send the request again."
 
 
@@ -79,6 +81,7 @@ class Plans:
         order = await self._ordered(request)
         digest = order.digest
         place = self._storage.begin_plan(digest, order.head)
+        self._forget_lost(place)
         if digest not in self._tasks and not (place / DONE).is_file():
             task = asyncio.create_task(self._make(digest, order))
             self._tasks[digest] = task
@@ -87,9 +90,19 @@ class Plans:
                 raise task.exception() or AssertionError
         return self.status(digest)
 
+    def _forget_lost(self, place: Path) -> None:
+        """Forget that a plan is done where its job folder is gone; else ask for that folder."""
+        try:
+            if (place / DONE).is_file():
+                self._kept.folder(read(place / DONE)["plan"])
+        except NoSuchJob:
+            (place / DONE).unlink()
+
     def status(self, digest: str) -> PlanStatus:
         """Return how a plan stands; raises NoSuch."""
-        place = self._storage.plan(digest)
+        return self._status(digest, self._storage.plan(digest))
+
+    def _status(self, digest: str, place: Path) -> PlanStatus:
         head = {"id": digest, **read(place / REQUEST)}
         if (place / DONE).is_file():
             return PlanStatus.model_validate({**head, **read(place / DONE), "state": "done"})
@@ -103,7 +116,11 @@ class Plans:
 
     def every(self) -> list[PlanStatus]:
         """Return all plans, by id."""
-        return [self.status(digest) for digest in self._storage.plans()]
+        found = []
+        for digest, place in self._storage.plans():
+            with suppress(FileNotFoundError):  # thrown away meanwhile
+                found.append(self._status(digest, place))
+        return found
 
     def job(self, digest: str) -> Path:
         """Return the job folder of a plan that is done; raises NoSuch where there is none."""

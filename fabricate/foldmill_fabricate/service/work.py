@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import TypeAdapter
 
 from foldmill import Assignment, Fold, installed
 from foldmill.check import check as check_fold
@@ -23,23 +24,26 @@ from foldmill.exchange.options import Options, named
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate import folder as job_folder
 from foldmill_fabricate import pictures, profiles
-from foldmill_fabricate.errors import CannotSend
+from foldmill_fabricate.as_cut import as_cut as sheets_as_cut
+from foldmill_fabricate.errors import CannotSend, CannotWrite
 from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.importing.reading import read_pattern, require_answers
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.passes import Face, Plan
+from foldmill_fabricate.pictures.as_cut_svg import as_cut_svg
 from foldmill_fabricate.plan import make
+from foldmill_fabricate.plan_options import PlanOptions
+from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.profiles import Style
-from foldmill_fabricate.service import as_cut as as_cuts
 from foldmill_fabricate.service import unpacking
 from foldmill_fabricate.service.bounds import MOST_UPLOAD
-from foldmill_fabricate.service.models import PlanOptions
-from foldmill_fabricate.verify import verify_folder
+from foldmill_fabricate.verify import read_folder, verify_folder
 
 LIMITS = Limits(size=MOST_UPLOAD)
 """Of a file that is uploaded."""
-PATTERN, UPLOAD = "pattern.fold", "upload"
+PATTERN, UPLOAD, AS_CUT = "pattern.fold", "upload", "as-cut.svg"
+SHEET = TypeAdapter(SheetRecord)
 
 
 def warm() -> None:
@@ -92,7 +96,7 @@ def plan(
     style = Style(profiles.find(profile), "R2000")
     of, on = Material.model_validate(material), Machine.model_validate(machine)
     fold = _fold(folder)
-    made = make(fold, of, on, **PlanOptions.model_validate(options).as_made())
+    made = make(fold, of, on, **PlanOptions.model_validate(options).for_make())
     written = job_folder.write(fold, made, folder / "job", formats, style)
     return _account(written, folder / "job")
 
@@ -160,9 +164,17 @@ def _whole_account(plan: Plan, folder: Path) -> dict[str, Any]:
     return {**_account(plan, folder), **slugs}
 
 
-def as_cut(folder: Path, job: str, face: str, strokes: as_cuts.Strokes, title: str) -> None:
-    """Draw how a face of a sheet is cut by now; ``job`` : its job folder."""
-    (folder / "as-cut.svg").write_bytes(as_cuts.drawing(Path(job), face, strokes, title))
+def as_cut(folder: Path, job: str, face: str, sheet: Mapping[str, Any]) -> None:
+    """Draw how a face of a sheet is cut by now; ``job`` : its job folder.
+
+    Raises CannotWrite for a face that nothing is done to.
+    """
+    files, record = read_folder(Path(job)), SHEET.validate_python(sheet)
+    faces = {each.face: each for each in sheets_as_cut(files.plan, files.programs, record)}
+    if face not in faces:
+        raise CannotWrite(f"Nothing is done to the {face} of sheet {record.id}; ask for another.")
+    drawn = as_cut_svg(faces[Face(face)], f"sheet {record.id}, {face}")
+    (folder / AS_CUT).write_bytes(drawn)
 
 
 def _kept(folder: Path, fold: Fold) -> dict[str, Any]:

@@ -11,8 +11,9 @@ from foldmill.errors import InvalidInput
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs import Order
 from foldmill_fabricate.jobs.errors import Leave
-from foldmill_fabricate.jobs.ordering import carry_out_elsewhere, options
+from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
 from foldmill_fabricate.jobs.plans import Plans
+from foldmill_fabricate.plan_options import PlanOptions, read_options
 from foldmill_fabricate.verify import verify_folder
 
 STAR = Order(family="rotational", preset="star-n6")
@@ -31,7 +32,7 @@ def test_an_ordered_design_becomes_a_job_folder_that_verifies(tmp_path: Path) ->
         ({"family": "origami"}, "origami"),
         ({"preset": "nobody"}, "nobody"),
         ({"material": "gold-leaf"}, "gold-leaf"),
-        ({"options": {"blank": [10.0, 10.0]}}, "blank"),
+        ({"options": PlanOptions(blank=(10.0, 10.0))}, "blank"),
         ({"family": "waterbomb", "params": {"surface": {"mesh": "/etc/passwd"}}}, "surface"),
     ],
 )
@@ -46,7 +47,7 @@ def test_what_cannot_be_planned_is_refused_by_its_sentence(
 
 def test_options_that_there_are_not_are_refused_at_once() -> None:
     with pytest.raises(InvalidInput, match="turbo"):
-        options({"turbo": True})
+        read_options({"turbo": True})
 
 
 def test_planning_ends_with_the_process_that_wants_it(tmp_path: Path) -> None:

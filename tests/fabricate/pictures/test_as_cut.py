@@ -2,32 +2,52 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from io import BytesIO
+from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import shapely
 from fabricate.bench import small_plan
-from fabricate.half_made import PENS, job_of
+from fabricate.half_made import KNIFE, LASER, ONE_TOOL, PENS, job_of
 from matplotlib.image import imread
 
+from foldmill_fabricate.as_cut import Kind, as_cut
 from foldmill_fabricate.errors import CannotPlan
-from foldmill_fabricate.passes import Plan
-from foldmill_fabricate.pictures.as_cut import CERTAIN, DOUBTFUL, LEFT, LOOKS, as_cut_picture
+from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.passes import Face, Plan
+from foldmill_fabricate.pictures.as_cut import LOOKS, as_cut_picture
+from foldmill_fabricate.pictures.as_cut_svg import as_cut_svg
 from foldmill_fabricate.plotter.ledger import Entry, Program, Record, SheetRecord, State
-from foldmill_fabricate.remaking import Standing, accounts, lying, read_spoken, remake
+from foldmill_fabricate.remaking import Standing, accounts, read_spoken, remake
 from foldmill_fabricate.remaking.strokes import owners
+from foldmill_fabricate.sending import Job
 from foldmill_fabricate.sheet import flipped
 
 PIXELS = tuple[int, int, int]
+OVERCUT = 1.0
+"""mm that a closed stroke may go on beyond its start, and a blade turns round it"""
 BLUE, ORANGE = (0x10, 0x2A, 0x80), (0xF0, 0xA0, 0x30)
 
 
 @pytest.fixture(scope="module")
-def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
-    return job_of(tmp_path_factory.mktemp("job"), small_plan(PENS)).plan
+def job(tmp_path_factory: pytest.TempPathFactory) -> Job:
+    return job_of(tmp_path_factory.mktemp("job"), small_plan(PENS))
 
 
-def sheet(plan: Plan, front: Entry | None, reverse: Entry | None) -> SheetRecord:
+@pytest.fixture(scope="module")
+def plan(job: Job) -> Plan:
+    return job.plan
+
+
+def picture(job: Job, front: Entry | None, reverse: Entry | None) -> bytes:
+    return as_cut_picture(job.plan, job.programs, sheet(job.plan, front, reverse))
+
+
+def sheet(plan: Plan, *runs: Entry | None) -> SheetRecord:
     records = tuple(
         Record(
             "ABCD",
@@ -37,7 +57,7 @@ def sheet(plan: Plan, front: Entry | None, reverse: Entry | None) -> SheetRecord
             *(0, 0, 0.0, ""),
             (run,) if run else (),
         )
-        for number, (part, run) in enumerate(zip(plan.programs, (front, reverse), strict=True))
+        for number, (part, run) in enumerate(zip(plan.programs, runs, strict=True))
     )
     return SheetRecord("ABCD", plan.digest, plan.title, "", "", "", records)
 
@@ -59,8 +79,8 @@ def greys(png: bytes) -> np.ndarray:
     return columns
 
 
-def test_each_kind_is_drawn_on_the_face_where_it_is(plan: Plan) -> None:
-    png = as_cut_picture(plan, sheet(plan, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2)))
+def test_each_kind_is_drawn_on_the_face_where_it_is(job: Job) -> None:
+    png = picture(job, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2))
     blue, orange = (spots(png, colour) for colour in (BLUE, ORANGE))
     assert (blue[:, 1] < 0.5).any()
     assert (blue[:, 1] > 0.5).any()
@@ -69,45 +89,94 @@ def test_each_kind_is_drawn_on_the_face_where_it_is(plan: Plan) -> None:
     assert (grey > 0.5).sum() > 500 + (grey < 0.5).sum()  # both have the blank's frame
 
 
-def test_the_reverse_is_drawn_as_one_looks_at_it(plan: Plan) -> None:
+def test_the_reverse_is_drawn_as_one_looks_at_it(job: Job, plan: Plan) -> None:
     """A stroke in doubt on the sheet's one side lies on the other side once it is turned over."""
     record = sheet(plan, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2))
     (doubt,) = [one for one in accounts(plan, record) if one.standing is Standing.DOUBTFUL]
     points = np.asarray(doubt.stroke.points)
     seen = flipped(points, plan.flip)[:, 0].mean() - plan.sheet.width / 2
-    orange = spots(as_cut_picture(plan, record), ORANGE)[:, 1]
+    orange = spots(as_cut_picture(plan, job.programs, record), ORANGE)[:, 1]
     assert abs(seen) > 10
     blank = 0.5 + 0.5 * 0.47  # its middle in the right half of the picture
     assert np.sign(orange.mean() - blank) == np.sign(seen)
 
 
 def test_the_three_kinds_differ_without_colour() -> None:
-    looks = {kind: LOOKS[kind] for kind in (CERTAIN, DOUBTFUL, LEFT)}
+    looks = {kind: LOOKS[kind] for kind in Kind}
     assert len({tuple(style for _, _, style in look) for look in looks.values()}) == 3
     widest = {kind: max(width for _, width, _ in look) for kind, look in looks.items()}
-    assert widest[DOUBTFUL] > 2.5 * widest[CERTAIN] > 4 * widest[LEFT]
+    assert widest[Kind.DOUBTFUL] > 2.5 * widest[Kind.CERTAIN] > 4 * widest[Kind.LEFT]
 
 
 def test_a_sheet_that_goes_on_with_another_shows_what_lay_there(plan: Plan) -> None:
-    before = sheet(plan, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2))
-    rest = remake(plan, before, [read_spoken("missing")])
-    assert {one.standing for one in lying(plan, before)} == {*Standing} - {Standing.HALF}
+    was = sheet(plan, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2))
+    rest = remake(plan, was, [read_spoken("missing")])
     reverse = plan.programs[1].model_copy(update={"setups": (1,)})
     rest = rest.model_copy(update={"programs": (reverse,)})
     program = Program(reverse.name, "reverse", "", len(owners(rest, reverse)))
     record = Record("EFGH", 0, program, State.READY, 0, 0, 0.0, "", ())
     after = SheetRecord("EFGH", rest.digest, "", "", "", "", (record,))
-    shown = lying(rest, after)
-    standings = [one.standing for one in shown]
-    assert len(shown) == len(accounts(plan, before))
-    assert standings.count(Standing.CERTAIN) == 9 + 2
-    assert standings.count(Standing.LEFT) == 5
-    assert not len(spots(as_cut_picture(rest, after), ORANGE))
+    written = {reverse.name: hpgl.program(rest, [1])}
+    shown = [line for face in as_cut(rest, written, after) for line in face.lines]
+    assert Counter(line.kind for line in shown) == {Kind.CERTAIN: 9 + 2, Kind.LEFT: 5}
+    assert not len(spots(as_cut_picture(rest, written, after), ORANGE))
 
 
-def test_the_same_record_gives_the_same_bytes_and_another_jobs_is_refused(plan: Plan) -> None:
-    record = sheet(plan, Entry(1, 0, 0, 4, 2), None)
-    assert as_cut_picture(plan, record) == as_cut_picture(plan, record)
-    other = plan.model_copy(update={"title": "Another"})
+@pytest.mark.parametrize("machine", [PENS, ONE_TOOL, KNIFE, LASER])
+def test_what_the_programs_drew_is_what_the_plan_says_of_each_stroke(
+    machine: str, tmp_path: Path
+) -> None:
+    """Two ways to one drawing: bytes read back, and strokes of the plan with their owners."""
+    job = job_of(tmp_path, small_plan(machine))
+    runs = [Entry(1, 0, 0, 3, 2)] * len(job.plan.programs)
+    record = sheet(job.plan, *runs)
+    allowed = job.plan.machine.tools.blade_offset + 2 / job.plan.machine.axes.units_per_mm
+    ways = {face.face: face for face in as_cut(job.plan, job.programs, record)}
+    found = accounts(job.plan, record)
+    assert any(each.standing is Standing.DOUBTFUL for each in found)
+    for each in found:
+        points = np.asarray(each.stroke.points)
+        seen = flipped(points, job.plan.flip) if each.face is Face.REVERSE else points
+        part = job.plan.programs[each.program].name
+        for number, standing in each.standings.items():
+            (line,) = [
+                line
+                for line in ways[each.face].lines
+                if (line.program, line.number) == (part, number + 1)
+            ]
+            assert line.kind.value == standing.value
+            drawn, meant = shapely.LineString(line.points), shapely.LineString(seen)
+            assert shapely.hausdorff_distance(drawn, meant) <= allowed + OVERCUT
+            if machine != KNIFE:  # the holder goes back another way than there
+                assert drawn.length <= meant.length + OVERCUT, "repeats are left out"
+
+
+def test_an_svg_has_each_stroke_in_the_group_of_its_kind_and_names_what_is_in_doubt(
+    job: Job,
+) -> None:
+    record = sheet(job.plan, Entry(1, 0, 0, 9, 9), Entry(1, 0, 0, 3, 2))
+    front, reverse = as_cut(job.plan, job.programs, record)
+    groups = dict(re.findall(r'<g id="(\w+)".*?>(.*?)</g>', as_cut_svg(reverse, "a & b").decode()))
+    assert [*groups] == ["left", "certain", "doubtful"]
+    drawn = {name: content.count("<path") for name, content in groups.items()}
+    assert drawn == {kind.value: len(reverse.of(kind)) for kind in Kind}
+    assert drawn["doubtful"] == 1
+    assert f"<title>{job.plan.programs[1].name}: 3</title>" in groups["doubtful"]
+    root = ElementTree.fromstring(as_cut_svg(front, "a & b"))
+    assert root.findtext("{http://www.w3.org/2000/svg}title") == "a & b"
+    assert root.attrib["width"] == f"{job.plan.sheet.width:g}mm"
+
+
+def test_the_same_record_gives_the_same_bytes_and_another_jobs_is_refused(job: Job) -> None:
+    assert picture(job, Entry(1, 0, 0, 4, 2), None) == picture(job, Entry(1, 0, 0, 4, 2), None)
+    other = job.plan.model_copy(update={"title": "Another"})
+    record = sheet(job.plan, Entry(1, 0, 0, 4, 2), None)
     with pytest.raises(CannotPlan, match="begun from another plan"):
-        as_cut_picture(other, record)
+        as_cut_picture(other, job.programs, record)
+
+
+def test_programs_that_were_written_anew_are_told_from_those_that_were_begun(job: Job) -> None:
+    name = job.plan.programs[0].name
+    shorter = {**job.programs, name: b"IN;SP1;PU0,0;PD400,0;PU;SP0;"}
+    with pytest.raises(CannotPlan, match="had 9 when sheet ABCD was begun"):
+        as_cut(job.plan, shorter, sheet(job.plan, None, None))

@@ -7,13 +7,8 @@ next. Arguments go in as JSON and files, results come out as JSON and files; not
 
 from __future__ import annotations
 
-from foldmill_fabricate.service.sandbox.limits import Limits
+from foldmill_fabricate.confining import Limits, TooMuch
 from foldmill_fabricate.service.sandbox.pool import Sandbox
-from foldmill_fabricate.service.sandbox.refusals import (
-    Refused,
-    SandboxFailed,
-    TooBusy,
-    TooMuch,
-)
+from foldmill_fabricate.service.sandbox.refusals import Refused, SandboxFailed, TooBusy
 
 __all__ = ["Limits", "Refused", "Sandbox", "SandboxFailed", "TooBusy", "TooMuch"]

@@ -7,27 +7,22 @@ It finds ``arguments.json`` in its folder and leaves ``result.json`` there: ``{"
 from __future__ import annotations
 
 import ctypes
-import errno
 import json
 import os
-import resource
 import signal
 import sys
 import traceback
 from collections.abc import Callable
 from importlib import import_module
-from math import ceil
 from pathlib import Path
 from typing import Any, NoReturn
 
 from foldmill.errors import FoldmillError
 from foldmill.files import fence_process
-from foldmill_fabricate.service.sandbox.limits import Limits
+from foldmill_fabricate import confining
+from foldmill_fabricate.confining import Limits
 
 ARGUMENTS, RESULT, LOG = "arguments.json", "result.json", "log.txt"
-_MB = 1024 * 1024
-_LAST_WORDS = 64 * _MB
-"""Memory that is left to say that there was too little of it."""
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of linux/prctl.h
 
 
@@ -54,13 +49,7 @@ def confine(folder: Path, limits: Limits) -> None:
     os.chdir(folder)
     _silence(folder / LOG)
     fence_process(None)
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (limits.file_mb * _MB,) * 2)
-    processor = max(1, ceil(limits.seconds))
-    resource.setrlimit(resource.RLIMIT_CPU, (processor, processor + 1))
-    if sys.platform == "linux":
-        most = _address_space() + limits.memory_mb * _MB
-        resource.setrlimit(resource.RLIMIT_AS, (most, most + _LAST_WORDS))
+    confining.confine(limits)
 
 
 def _silence(log: Path) -> None:
@@ -72,27 +61,14 @@ def _silence(log: Path) -> None:
     os.closerange(3, 256)
 
 
-def _address_space() -> int:
-    """Return the bytes of address space that this process has now."""
-    pages = int(Path("/proc/self/statm").read_text().split()[0])
-    return pages * resource.getpagesize()
-
-
 def _outcome(call: str, folder: Path, limits: Limits) -> dict[str, Any]:
     """Return what becomes of the call, as result.json says it."""
     try:
         arguments = json.loads((folder / ARGUMENTS).read_bytes())
-        return {"value": _function(call)(folder, **arguments)}
-    except MemoryError:
-        _, most = resource.getrlimit(resource.RLIMIT_AS)
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
-        return {"kind": "TooMuch", "refused": str(limits.too_large("The work"))}
+        with confining.refusing(limits, "The work"):
+            return {"value": _function(call)(folder, **arguments)}
     except FoldmillError as error:
         return {"kind": type(error).__name__, "refused": str(error)}
-    except OSError as error:
-        if error.errno == errno.EFBIG:
-            return {"kind": "TooMuch", "refused": str(limits.too_long("The work"))}
-        raise
 
 
 def _function(call: str) -> Callable[..., Any]:

@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Any
 
 from foldmill_fabricate.beside import step_aside
+from foldmill_fabricate.confining import Limits
 from foldmill_fabricate.service.sandbox.child import live
-from foldmill_fabricate.service.sandbox.limits import Limits
 
 GRACE = 0.5
 """s beyond a limit of wall time, within which processor time may end the child with its reason."""

@@ -17,8 +17,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from foldmill_fabricate.service.sandbox.limits import Limits
-from foldmill_fabricate.service.sandbox.refusals import Refused, SandboxFailed, TooBusy, TooMuch
+from foldmill_fabricate.confining import Limits, TooMuch
+from foldmill_fabricate.service.sandbox.refusals import Refused, SandboxFailed, TooBusy
 
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "agg"}
 """A library's own threads would not survive the fork of a child."""
@@ -235,7 +235,10 @@ def _outcome(work: _Work, said: Mapping[str, Any]) -> Any:
     if said["late"]:
         return work.limits.late(work.what)
     if said["signal"]:
-        return work.limits.after(said["signal"], work.what)
+        return work.limits.after(said["signal"], work.what) or SandboxFailed(
+            f"{work.what} ended by itself (signal {said['signal']}) and nothing was kept. Try "
+            "again; tell who runs this service if it happens twice."
+        )
     try:
         result = json.loads((work.folder / _RESULT).read_bytes())
     except (OSError, ValueError):

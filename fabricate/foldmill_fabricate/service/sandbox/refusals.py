@@ -4,7 +4,7 @@
 
     FoldmillError
     ├── Refused (ValueError)           what the function itself refused, with its own sentence
-    ├── TooMuch (ValueError)           work that needed more than its limits
+    ├── TooMuch (ValueError)           work that needed more than its limits (``confining``)
     ├── TooBusy (RuntimeError)         more work waiting than there is room for
     └── SandboxFailed (RuntimeError)   a process that ended without a word, by a fault of ours
 """
@@ -20,10 +20,6 @@ class Refused(FoldmillError, ValueError):
     def __init__(self, message: str, kind: str = "FoldmillError") -> None:
         super().__init__(message)
         self.kind = kind
-
-
-class TooMuch(FoldmillError, ValueError):
-    """Work that needed more time, memory or room than it may have."""
 
 
 class TooBusy(FoldmillError, RuntimeError):
