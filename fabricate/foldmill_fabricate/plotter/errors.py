@@ -7,7 +7,8 @@
     │   ├── PortUnavailable              no such port, busy, not permitted, no such scheme
     │   ├── NoAnswer (TimeoutError)      silence where an answer was due
     │   ├── Stopped                      a person stopped it
-    │   └── Fenced                       another process has taken the run over
+    │   ├── Fenced                       another process has taken the run over
+    │   └── LedgerFailed                 its database is away or full: nothing is sent without it
     ├── ProgramRefused (InvalidInput)    bytes that must not reach a machine
     └── LedgerRefused (InvalidInput)     what the ledger of passes does not allow
 """
@@ -39,6 +40,10 @@ class ProgramRefused(InvalidInput):
 
 class LedgerRefused(InvalidInput):
     """What the ledger of passes does not allow."""
+
+
+class LedgerFailed(PlotterError):
+    """A database that does not answer, or has no room: it may be tried again later."""
 
 
 class Fenced(PlotterError):
