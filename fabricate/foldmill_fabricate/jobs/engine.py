@@ -151,9 +151,9 @@ class Engine:
 
     def _say_away(self, error: Exception) -> None:
         """Log once, and not at every look, why no turns are given."""
-        why = str(error).splitlines()[0] if str(error) else type(error).__name__
+        why = patient.sentence(error, self._config["system_database_url"] or "")
         if not self._away and not self._over.is_set():
-            trace = None if isinstance(error, LedgerFailed) else error
+            trace = None if isinstance(error, LedgerFailed) or "full" in why else error
             _LOG.warning("no jobs are begun now: %s", why, exc_info=trace)
         self._away = self._away or why
 

@@ -24,7 +24,7 @@ from foldmill_fabricate.jobs.store import JobStore
 from foldmill_fabricate.jobs.values import Order
 from foldmill_fabricate.jobs.work import Shop, Tell, work
 from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed
-from foldmill_fabricate.space import DiskFull
+from foldmill_fabricate.space import DiskFull, keeping
 
 _LOG = logging.getLogger(__name__)
 _HERE = "this-computer"
@@ -145,12 +145,15 @@ class Host:
             return
         except (LedgerFailed, DiskFull) as error:
             _LOG.warning("job %s waits to be planned: %s", name, error)
+            with suppress(LedgerFailed):
+                self.store.hold(name, str(error))
             self._leaving.wait(_BREATH)
 
     def _carry_out(self, name: str) -> None:
         """Plan an order; raises LedgerFailed and DiskFull, upon which it may be tried again."""
         order = Order.model_validate_json(self.store.order(name))
-        with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
+        scratch = Path(tempfile.gettempdir())
+        with keeping(scratch), tempfile.TemporaryDirectory(prefix="foldmill-") as place:
             folder = Path(place) / "job"
             try:
                 carry_out_elsewhere(order, folder, self._leaving, lambda: self._heed_order(name))

@@ -6,12 +6,14 @@ after the server is.
 
 from __future__ import annotations
 
+from pathlib import Path
 from threading import Event
 from typing import Any
 
 from sqlalchemy import Engine, create_engine, event
 
 from foldmill_fabricate.jobs.errors import Leave
+from foldmill_fabricate.space import sentence as of_disk
 
 _REST = 0.5
 """s between two tries."""
@@ -40,3 +42,11 @@ def engine(url: str, over: Event) -> Engine | None:
 
     event.listen(made, "do_connect", connect)
     return made
+
+
+def sentence(error: BaseException, url: str) -> str:
+    """Say what is in the way of the engine's database; url : of it."""
+    said = (str(error).splitlines() or [type(error).__name__])[0]
+    if "database or disk is full" in said:
+        return of_disk(Path(url.removeprefix("sqlite:///")))
+    return said

@@ -15,6 +15,7 @@ from foldmill_fabricate.folder import PLAN
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.space import keeping
 
 _ID = re.compile(r"[0-9a-f]{64}")
 
@@ -28,19 +29,24 @@ class Plans:
     def keep(self, folder: Path) -> str:
         """Keep a copy of a job folder and return the id of its plan.
 
-        Only what plan.json names is kept. Raises CannotSend for a folder that is none.
+        Only what plan.json names is kept. Raises CannotSend for a folder that is none, DiskFull.
         """
         plan = _read(folder)
         name = plan.digest
         if not (self._root / name).exists():
-            self._root.mkdir(parents=True, exist_ok=True)
-            draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self._root))
-            try:
-                _copy(plan, folder, draft)
-                _settle(draft, self._root / name)
-            finally:
-                shutil.rmtree(draft, ignore_errors=True)
+            with keeping(self._root):
+                self._lay_down(plan, folder)
         return name
+
+    def _lay_down(self, plan: Plan, folder: Path) -> None:
+        """Copy it whole beside its place, then put it there."""
+        self._root.mkdir(parents=True, exist_ok=True)
+        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self._root))
+        try:
+            _copy(plan, folder, draft)
+            _settle(draft, self._root / plan.digest)
+        finally:
+            shutil.rmtree(draft, ignore_errors=True)
 
     def folder(self, name: str) -> Path:
         """Return the folder of a plan; raises NoSuchJob for an id that none has."""

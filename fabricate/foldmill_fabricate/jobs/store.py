@@ -100,6 +100,13 @@ class JobStore:
         self._change(name, JobState.FAILED, why, from_=JobState.PLANNING, note=why)
         return self.job(name)
 
+    def hold(self, name: str, why: str) -> None:
+        """Say why an ordered design is not planned yet; it is tried again."""
+        with self._engine.begin() as at:
+            row = rows.job_row(at, name, lock=True)
+            if row.state == JobState.PLANNING.value and row.note != why:
+                self._set(at, row, JobState.PLANNING, f"not planned yet: {why}", rows.WORKER, why)
+
     # ── what there is ────────────────────────────────────────────────────────────────────────────
 
     def job(self, name: str) -> JobRecord:

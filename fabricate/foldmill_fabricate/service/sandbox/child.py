@@ -23,6 +23,7 @@ from typing import Any, NoReturn
 from foldmill.errors import FoldmillError
 from foldmill.files import fence_process
 from foldmill_fabricate.service.sandbox.limits import Limits
+from foldmill_fabricate.space import is_full, sentence
 
 ARGUMENTS, RESULT, LOG = "arguments.json", "result.json", "log.txt"
 _MB = 1024 * 1024
@@ -92,6 +93,8 @@ def _outcome(call: str, folder: Path, limits: Limits) -> dict[str, Any]:
     except OSError as error:
         if error.errno == errno.EFBIG:
             return {"kind": "TooMuch", "refused": str(limits.too_long("The work"))}
+        if is_full(error):
+            return {"kind": "DiskFull", "refused": sentence(folder)}
         raise
 
 
