@@ -6,6 +6,7 @@ import logging
 import os
 import signal
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from threading import Event
 from typing import TYPE_CHECKING
 
@@ -71,6 +72,7 @@ def is_worked_on(places: Places) -> bool:
 def work_here(more: Sequence[str], host_name: str, tell: Callable[[str], None]) -> None:
     """Work on jobs until SIGINT or SIGTERM, telling of each change."""
     from foldmill_fabricate.jobs import Places, plotters
+    from foldmill_fabricate.plotter.errors import LedgerFailed
 
     try:
         from foldmill_fabricate.jobs.host import Host
@@ -94,9 +96,10 @@ def work_here(more: Sequence[str], host_name: str, tell: Callable[[str], None]) 
     tell(f"At work on {', '.join(sorted(known))}; Ctrl-C ends it.")
     try:
         while not over.wait(0.3):
-            for event in host.store.events(heard):
-                heard = event.number
-                tell(f"{event.job}  {event.who}: {event.what}")
+            with suppress(LedgerFailed):  # the log says so; what happens meanwhile is told later
+                for event in host.store.events(heard):
+                    heard = event.number
+                    tell(f"{event.job}  {event.who}: {event.what}")
     finally:
         host.stop()
         for number, handler in before.items():

@@ -8,13 +8,16 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Mapping
 from math import inf
+from pathlib import Path
 from typing import Any
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate.beside import step_aside
+from foldmill_fabricate.space import DiskFull, keeping
 
 _LOOK = 0.2
 """s between two looks at what is wanted meanwhile."""
@@ -42,7 +45,8 @@ def done(
     """Return what a module's process says once it has ended; it never outlives this call.
 
     ``refused`` of it is the sentence of a refusal, or empty. heed : called again and again
-    meanwhile; what it raises ends the process. patience : s. Raises Silent and Late.
+    meanwhile; what it raises ends the process. patience : s. Raises Silent and Late, and DiskFull
+    where it found no room for what it makes.
     """
     pipe, end = subprocess.PIPE, time.monotonic() + patience
     command = [sys.executable, "-m", module]
@@ -56,6 +60,8 @@ def done(
         said: dict[str, Any] = json.loads(out)
     except ValueError:
         raise Silent(child.returncode, errors) from None
+    if full := said.pop("full", ""):
+        raise DiskFull(full)
     return said
 
 
@@ -78,7 +84,10 @@ def serve(work: Callable[[dict[str, Any]], Mapping[str, Any]]) -> None:
     step_aside()
     said: dict[str, Any] = {"refused": ""}
     try:
-        said |= work(json.loads(sys.stdin.read()))
+        with keeping(Path(tempfile.gettempdir())):
+            said |= work(json.loads(sys.stdin.read()))
+    except DiskFull as error:
+        said["full"] = str(error)
     except FoldmillError as error:
         said["refused"] = str(error)
     sys.stdout.write(json.dumps(said))

@@ -9,18 +9,24 @@ keeps the rules by which that is safe beside a machine:
 - a queue per plotter that gives one turn at a time, over all and in each process;
 - workflows are asynchronous, and what blocks runs in threads of their own;
 - arguments and results are names, never objects;
-- nothing is cancelled, resumed or forked through the engine.
+- nothing is cancelled, resumed or forked through the engine;
+- a turn that nobody has, because its beginning or its end could not be written down, is forgotten:
+  it is nothing but a turn, and what is due is given another.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable, Iterable, Mapping
+import time
+from collections.abc import Callable, Mapping
 from threading import Event, Thread
 from typing import Any
 
 from dbos import DBOS, DBOSConfig
+
+from foldmill_fabricate.jobs import patient
+from foldmill_fabricate.plotter.errors import LedgerFailed
 
 _LOG = logging.getLogger(__name__)
 _NAME = "foldmill"
@@ -33,6 +39,10 @@ _POLL = 0.25
 _OLD = 20
 """Turns that have ended and are kept, at most."""
 _PENDING = ["ENQUEUED", "PENDING", "DELAYED"]
+_GRACE = 5.0
+"""s after which a turn that was begun, and that nobody has, is lost: it takes that to begin one."""
+_PATIENCE = 10
+"""s for what is under way when the engine stops."""
 PLANNING = "planning"
 """The queue of designs that are to be planned: none of them has a machine."""
 
@@ -44,11 +54,20 @@ _hands: dict[str, tuple[Take, Make]] = {}
 """Who takes and makes, by queue: a process has one engine."""
 
 
+_under_way: set[str] = set()
+"""The turns that this process has now."""
+
+
 @DBOS.workflow(name="turn")
 async def _turn(queue: str) -> str:
-    job = await DBOS.run_step_async({"name": "take"}, _take, queue)
-    if job:
-        await DBOS.run_step_async({"name": "make"}, _make, queue, job)
+    own = DBOS.workflow_id or ""
+    _under_way.add(own)
+    try:
+        job = await DBOS.run_step_async({"name": "take"}, _take, queue)
+        if job:
+            await DBOS.run_step_async({"name": "make"}, _make, queue, job)
+    finally:
+        _under_way.discard(own)
     return job
 
 
@@ -76,15 +95,20 @@ class Engine:
         due: Callable[[], Mapping[str, int]],
     ) -> None:
         self._queues, self._due = queues, due
+        self._over, self._wake = Event(), Event()
+        self._database = patient.engine(url, self._over)
         self._config: DBOSConfig = {
             "name": _NAME,
+            "system_database_engine": self._database,
             "system_database_url": url,
             "executor_id": host,
             "application_version": _VERSION,
-            "log_level": "WARNING",
+            "log_level": "ERROR",
             "enable_otlp": False,
         }
-        self._over, self._wake = Event(), Event()
+        self._lost: dict[str, float] = {}
+        """When turns were first seen that nobody has, s, by their id."""
+        self._away = ""
         self._dispatcher = Thread(target=self._dispatch, name="dispatcher", daemon=True)
 
     def start(self) -> None:
@@ -107,8 +131,10 @@ class Engine:
         """Give no more turns, and wait for those under way; who works must have been told."""
         self._over.set()
         self._wake.set()
-        self._dispatcher.join()
-        DBOS.destroy(workflow_completion_timeout_sec=10)
+        self._dispatcher.join(_PATIENCE)
+        DBOS.destroy(workflow_completion_timeout_sec=_PATIENCE)
+        if self._database is not None:
+            self._database.dispose()
         _hands.clear()
 
     def _dispatch(self) -> None:
@@ -117,9 +143,24 @@ class Engine:
             try:
                 self._give_turns(self._due())
                 self._forget_turns()
-            except Exception:  # a database that is away for a moment must not end the service
-                _LOG.exception("no turns could be given")
+            except Exception as error:  # a database that is away must not end the service
+                self._say_away(error)
+            else:
+                self._say_back()
             self._wake.wait(_LOOK)
+
+    def _say_away(self, error: Exception) -> None:
+        """Log once, and not at every look, why no turns are given."""
+        why = patient.sentence(error, self._config["system_database_url"] or "")
+        if not self._away and not self._over.is_set():
+            trace = None if isinstance(error, LedgerFailed) or "full" in why else error
+            _LOG.warning("no jobs are begun now: %s", why, exc_info=trace)
+        self._away = self._away or why
+
+    def _say_back(self) -> None:
+        if self._away:
+            _LOG.warning("jobs are begun again; what was in the way is over")
+        self._away = ""
 
     def _give_turns(self, due: Mapping[str, int]) -> None:
         wanted = {name: count for name, count in due.items() if name in self._queues}
@@ -141,7 +182,21 @@ class Engine:
             DBOS.delete_workflows([one.workflow_id for one in ended])
 
     def _given(self, name: str) -> int:
-        found: Iterable[Any] = DBOS.list_workflows(
+        """Return how many turns of a queue wait or are under way."""
+        found: list[Any] = DBOS.list_workflows(
             queue_name=name, status=_PENDING, load_input=False, load_output=False
         )
-        return len(list(found))
+        lost = {turn.workflow_id for turn in found if self._is_lost(turn)}
+        if lost:
+            DBOS.delete_workflows(sorted(lost))
+            self._lost = {turn: since for turn, since in self._lost.items() if turn not in lost}
+        return len(found) - len(lost)
+
+    def _is_lost(self, turn: Any) -> bool:
+        """Tell whether a turn was begun, and nobody has had it for a while."""
+        mine = turn.status == "PENDING" and turn.executor_id == self._config["executor_id"]
+        if not mine or turn.workflow_id in _under_way:
+            self._lost.pop(turn.workflow_id, None)
+            return False
+        now = time.monotonic()
+        return now - self._lost.setdefault(turn.workflow_id, now) > _GRACE

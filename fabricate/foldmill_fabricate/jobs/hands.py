@@ -7,6 +7,7 @@ here hears of a pause, a cancel and the end of the process, too.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from threading import Event
 from typing import Any
@@ -19,7 +20,7 @@ from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, JobStore
 from foldmill_fabricate.jobs.values import Kind, Question, Reply
 from foldmill_fabricate.operators import SimulatedOperator, Verdict, said
-from foldmill_fabricate.plotter.errors import Spoiled
+from foldmill_fabricate.plotter.errors import LedgerFailed, Spoiled
 from foldmill_fabricate.plotter.ledger import Record, Said, Word, account
 from foldmill_fabricate.plotter.resume import Start
 
@@ -127,11 +128,12 @@ class Hands:
 
     def _wait(self, question: Question) -> tuple[Reply, str]:
         while True:
-            self.heed()
-            self._heed_sheet()
-            reply = self._store.reply(question.id)
-            if reply is not None:
-                return reply
+            with suppress(LedgerFailed):  # the machine stands still: the question can wait
+                self.heed()
+                self._heed_sheet()
+                reply = self._store.reply(question.id)
+                if reply is not None:
+                    return reply
             self._leaving.wait(LOOK)
 
     def _heed_sheet(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import tempfile
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from threading import Event
 
@@ -15,6 +16,7 @@ from foldmill.errors import FoldmillError
 from foldmill.refusals import explain
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
 from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
+from foldmill_fabricate.jobs.hands import LOOK
 from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
@@ -23,7 +25,8 @@ from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import JobStore
 from foldmill_fabricate.jobs.values import Order
 from foldmill_fabricate.jobs.work import Shop, Tell, work
-from foldmill_fabricate.plotter.errors import Fenced
+from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed
+from foldmill_fabricate.space import DiskFull, keeping
 
 _LOG = logging.getLogger(__name__)
 _HERE = "this-computer"
@@ -92,7 +95,12 @@ class Host:
         return due | {PLANNING: len(self.store.jobs([JobState.PLANNING]))}
 
     def _take(self, queue: str) -> str:
-        taken = self.store.take(queue.removeprefix("plotter-"))
+        try:
+            taken = self.store.take(queue.removeprefix("plotter-"))
+        except LedgerFailed as error:
+            _LOG.warning("%s: no job is taken: %s", queue, error)
+            self._leaving.wait(_BREATH)
+            return ""  # what is due has a turn again
         if taken is None:
             return ""
         job, self._tokens[job.id] = taken
@@ -100,20 +108,31 @@ class Host:
 
     def _make(self, queue: str, name: str) -> None:
         """Work on a job that was taken; after a crash it is taken anew, by a new token."""
-        token = self._tokens.pop(name, None)
-        if token is None:
-            taken = self.store.take(queue.removeprefix("plotter-"))
-            if taken is None or taken[0].id != name:
-                return  # it has ended meanwhile; what is next has a turn of its own
-            token = taken[1]
         plotter = self.plotters[queue.removeprefix("plotter-")]
         try:
-            work(self._shop, self.store.job(name), token, plotter)
+            token = self._tokens.pop(name, None) or self._take_again(plotter.name, name)
+            if token:
+                work(self._shop, self.store.job(name), token, plotter)
         except (Leave, Fenced) as error:
             _LOG.warning("job %s: %s", name, error)
-        except Exception:  # such as a database that is away: the job is due, and has a turn again
+        except LedgerFailed as error:
+            _LOG.warning("job %s: %s", name, error)
+            self._wait_for_ledger(name, str(error))
+        except Exception:  # the job is due, and has a turn again
             _LOG.exception("job %s", name)
             self._leaving.wait(_BREATH)
+
+    def _take_again(self, plotter: str, name: str) -> int:
+        """Return a token for a job that was taken by a process that crashed; 0 where it ended."""
+        taken = self.store.take(plotter)
+        return taken[1] if taken and taken[0].id == name else 0
+
+    def _wait_for_ledger(self, name: str, why: str) -> None:
+        """Wait until something can be written down again; the job is taken up by the next turn."""
+        while not self._leaving.wait(LOOK):
+            with suppress(LedgerFailed):
+                self.store.tell(name, f"the work was broken off: {why}")
+                return
 
     def _take_order(self, queue: str) -> str:  # noqa: ARG002
         waiting = self.store.jobs([JobState.PLANNING])
@@ -121,17 +140,28 @@ class Host:
 
     def _plan(self, queue: str, name: str) -> None:  # noqa: ARG002
         """Plan an ordered design; killed and begun again, it does the same."""
-        job = self.store.job(name)
-        if job.state is not JobState.PLANNING:
+        try:
+            if self.store.job(name).state is JobState.PLANNING:
+                self._carry_out(name)
+        except (Leave, Cancelled):
             return
-        with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
+        except (LedgerFailed, DiskFull) as error:
+            _LOG.warning("job %s waits to be planned: %s", name, error)
+            with suppress(LedgerFailed):
+                self.store.hold(name, str(error))
+            self._leaving.wait(_BREATH)
+
+    def _carry_out(self, name: str) -> None:
+        """Plan an order; raises LedgerFailed and DiskFull, upon which it may be tried again."""
+        scratch = Path(tempfile.gettempdir())
+        with keeping(scratch), tempfile.TemporaryDirectory(prefix="foldmill-") as place:
             folder = Path(place) / "job"
             try:
                 order = Order.model_validate_json(self.store.order(name))
                 carry_out_elsewhere(order, folder, self._leaving, lambda: self._heed_order(name))
                 plan = self.plans.keep(folder)
-            except (Leave, Cancelled):
-                return
+            except (Leave, Cancelled, LedgerFailed, DiskFull):
+                raise
             except (FoldmillError, OSError) as error:
                 self.store.refused(name, str(error))
                 return
@@ -141,8 +171,9 @@ class Host:
         self.store.planned(name, plan, self.plans.about(plan))
 
     def _heed_order(self, name: str) -> None:
-        if self.store.job(name).state is not JobState.PLANNING:
-            raise Cancelled("Ended by a person.")
+        with suppress(LedgerFailed):  # planning goes on while nobody can say otherwise
+            if self.store.job(name).state is not JobState.PLANNING:
+                raise Cancelled("Ended by a person.")
 
 
 def _locked(places: Places) -> FileLock:

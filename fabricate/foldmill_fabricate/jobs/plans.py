@@ -15,6 +15,7 @@ from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.keeping import KEEP_DAYS, Keeping
 from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.space import keeping
 
 
 class Plans:
@@ -29,12 +30,12 @@ class Plans:
     def keep(self, folder: Path) -> str:
         """Keep a copy of a job folder and return the id of its plan.
 
-        Only what plan.json names is kept. Raises CannotSend for a folder that is none.
+        Only what plan.json names is kept. Raises CannotSend for a folder that is none, DiskFull.
         """
         plan = _read(folder)
         name = plan.digest
         if self._kept.find(name) is None:
-            with self._kept.draft() as draft:
+            with keeping(self._kept.root), self._kept.draft() as draft:
                 _copy(plan, folder, draft)
                 self._kept.settle(draft, name)
         return name

@@ -22,7 +22,7 @@ from foldmill_fabricate.jobs.values import (
     Reply,
     Submission,
 )
-from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
 from foldmill_fabricate.plotter.ledger.tables import SHEETS, connect, reading
@@ -45,6 +45,8 @@ class JobStore:
         try:
             self._engine = connect(place)
             METADATA.create_all(self._engine)
+        except LedgerFailed:
+            raise
         except SQLAlchemyError as error:
             raise LedgerRefused(f"{place} cannot be opened: {str(error).splitlines()[0]}") from None
 
@@ -97,6 +99,13 @@ class JobStore:
         """Say that an ordered design cannot be planned."""
         self._change(name, JobState.FAILED, why, from_=JobState.PLANNING, note=why)
         return self.job(name)
+
+    def hold(self, name: str, why: str) -> None:
+        """Say why an ordered design is not planned yet; it is tried again."""
+        with self._engine.begin() as at:
+            row = rows.job_row(at, name, lock=True)
+            if row.state == JobState.PLANNING.value and row.note != why:
+                self._set(at, row, JobState.PLANNING, f"not planned yet: {why}", rows.WORKER, why)
 
     # ── what there is ────────────────────────────────────────────────────────────────────────────
 
@@ -249,6 +258,12 @@ class JobStore:
             at.execute(insert(JOB_SHEETS).values(job=name, number=number, sheet=sheet))
             self._note(at, name, f"sheet {sheet} begun", JobState(row.state), rows.WORKER)
         return number
+
+    def tell(self, name: str, what: str) -> None:
+        """Add to the history of a job what no change of it tells."""
+        with self._engine.begin() as at:
+            row = rows.job_row(at, name)
+            self._note(at, row.id, what, JobState(row.state), rows.WORKER)
 
     def wish(self, name: str) -> str:
         """Return what a person wants of a job: pause, cancel, or nothing."""

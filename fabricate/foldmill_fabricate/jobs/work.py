@@ -24,7 +24,7 @@ from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
 from foldmill_fabricate.passes import Face, Gate, ProgramFile
-from foldmill_fabricate.plotter.errors import Fenced, Spoiled
+from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, Spoiled
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.plotter.sender import Progress
 from foldmill_fabricate.plotter.wish import Wish
@@ -59,7 +59,8 @@ class Shop:
 def work(shop: Shop, job: JobRecord, token: int, plotter: Plotter) -> None:
     """Work on a job, as the holder of its token, until it ends.
 
-    Raises Leave where the process is to end, Fenced where somebody else has the job.
+    Raises Leave where the process is to end, Fenced where somebody else has the job, LedgerFailed
+    where nothing can be written down any more.
     """
     try:
         with watching(shop, job.id, token) as wish:
@@ -93,7 +94,7 @@ class watching:  # noqa: N801
                 return
             try:
                 self._hear(self._shop.store.wish(self._job))
-            except (JobRefused, Fenced):
+            except (JobRefused, Fenced, LedgerFailed):
                 pass  # the work itself meets it, and says so
             except Exception:  # a database that is away for a moment must not end the watch
                 _LOG.exception("wishes of job %s", self._job)
@@ -148,7 +149,7 @@ class _Work:
                 self._send(opened, sheet)
             except Spoiled as error:
                 told = str(error)
-            except (Cancelled, GivenUp, Leave, Fenced):
+            except (Cancelled, GivenUp, Leave, Fenced, LedgerFailed):
                 raise
             except FoldmillError as error:
                 if not self._is_given_up(sheet):

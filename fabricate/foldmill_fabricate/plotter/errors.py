@@ -7,8 +7,9 @@
     │   ├── PortUnavailable              no such port, busy, not permitted, no such scheme
     │   ├── NoAnswer (TimeoutError)      silence where an answer was due
     │   ├── Stopped                      a person stopped it
-    │   └── Fenced                       another process has taken the run over
-    │       └── Spoiled                  the sheet was given up while it was cut
+    │   ├── Fenced                       another process has taken the run over
+    │   │   └── Spoiled                  the sheet was given up while it was cut
+    │   └── LedgerFailed                 its database is away or full: nothing is sent without it
     ├── ProgramRefused (InvalidInput)    bytes that must not reach a machine
     └── LedgerRefused (InvalidInput)     what the ledger of passes does not allow
 """
@@ -40,6 +41,10 @@ class ProgramRefused(InvalidInput):
 
 class LedgerRefused(InvalidInput):
     """What the ledger of passes does not allow."""
+
+
+class LedgerFailed(PlotterError):
+    """A database that does not answer, or has no room: it may be tried again later."""
 
 
 class Fenced(PlotterError):

@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 from collections import deque
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TextIO
 
 from foldmill_fabricate.plotter.clock import Clock, VirtualClock
 from foldmill_fabricate.plotter.errors import PlotterError
+from foldmill_fabricate.space import is_full, sentence
 
 MACHINE, HOST = "machine", "host"
 _DIGITS = 6
@@ -27,7 +28,7 @@ class Recorded:
     """A port whose bytes are written down; whatever else it can do, the port itself does."""
 
     def __init__(self, port: Any, clock: Clock, to: TextIO) -> None:
-        self.__dict__.update(_port=port, _clock=clock, _to=to, _began=clock.now())
+        self.__dict__.update(_port=port, _clock=clock, _to=to, _began=clock.now(), _broken=False)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.__dict__["_port"], name)
@@ -50,14 +51,21 @@ class Recorded:
     def _note(self, direction: str, data: bytes) -> None:
         seconds = self.__dict__["_clock"].now() - self.__dict__["_began"]
         row = {"t": round(seconds, _DIGITS), "to": direction, "data": data.hex()}
-        self.__dict__["_to"].write(json.dumps(row) + "\n")
+        if self.__dict__["_broken"]:
+            return  # the machine is being stopped: that must reach it
+        try:
+            self.__dict__["_to"].write(json.dumps(row) + "\n")
+        except OSError as error:
+            self.__dict__["_broken"] = True
+            raise _unwritten(Path(self.__dict__["_to"].name), error) from None
 
 
 @contextmanager
 def recorded(port: Any, clock: Clock, path: Path | None) -> Iterator[Any]:
     """Give the port, written down in a new file where one is named.
 
-    Raises PlotterError where the file cannot be written.
+    Raises PlotterError where the file cannot be written, and so does whatever the port is used for
+    then; but only once: to stop the machine it goes on to be of use.
     """
     if path is None:
         yield port
@@ -65,9 +73,19 @@ def recorded(port: Any, clock: Clock, path: Path | None) -> Iterator[Any]:
     try:
         to = path.open("w", encoding="ascii", buffering=1)
     except OSError as error:
-        raise PlotterError(f"The transcript {path} cannot be written: {error.strerror}.") from None
-    with to:
+        raise _unwritten(path, error) from None
+    try:
         yield Recorded(port, clock, to)
+    finally:
+        with suppress(OSError):  # of what could not be written the delivery has spoken
+            to.close()
+
+
+def _unwritten(path: Path, error: OSError) -> PlotterError:
+    """Return what is said of a transcript that takes no more; nothing is sent without one."""
+    if is_full(error):
+        return PlotterError(f"The transcript {path.name} has no room. {sentence(path)}")
+    return PlotterError(f"The transcript {path} cannot be written: {error.strerror}.")
 
 
 class Replayed:

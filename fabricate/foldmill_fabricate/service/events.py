@@ -14,6 +14,7 @@ from fastapi.sse import ServerSentEvent
 
 from foldmill_fabricate.jobs.states import ACTIVE
 from foldmill_fabricate.jobs.values import Event
+from foldmill_fabricate.plotter.errors import LedgerFailed
 from foldmill_fabricate.service.sandbox import TooBusy
 from foldmill_fabricate.service.workshop import Workshop
 
@@ -53,12 +54,11 @@ async def follow(
     end, told = loop.time() + seconds, None
     yield ServerSentEvent(comment="following", retry=RETRY)
     while True:
-        events = await asyncio.to_thread(shop.desk.store.events, after, job)
+        events, progress = await asyncio.to_thread(_news, shop, after, job)
         for event in events:
             after = event.number
             yield _numbered(event)
-        progress = await asyncio.to_thread(_progress, shop, job)
-        if progress != told:
+        if progress is not None and progress != told:
             told = progress
             yield ServerSentEvent(event="progress", data=progress)
         left = end - loop.time()
@@ -66,6 +66,14 @@ async def follow(
             return
         if not events:
             await asyncio.sleep(min(LOOK, left))
+
+
+def _news(shop: Workshop, after: int, job: str) -> tuple[list[Event], list[dict[str, Any]] | None]:
+    """Return what happened and how far it is; nothing while the database is away."""
+    try:
+        return shop.desk.store.events(after, job), _progress(shop, job)
+    except LedgerFailed:
+        return [], None
 
 
 def _numbered(event: Event) -> ServerSentEvent:

@@ -27,6 +27,7 @@ from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, 
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
 from foldmill_fabricate.service.storage import DONE, JOB, REFUSED, REQUEST, read, write
+from foldmill_fabricate.space import DiskFull, keeping
 from foldmill_fabricate.writers import writer
 
 _INTERRUPTED = "The service ended while this was planned; send the request again."
@@ -72,6 +73,8 @@ class Plans:
     def __init__(self, desk: Desk, kept: Kept) -> None:
         self._desk, self._storage, self._kept = desk, desk.storage, kept
         self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._full: dict[str, str] = {}
+        """What is said of plans for which there was no room."""
 
     async def begin(self, request: PlanRequest) -> PlanStatus:
         """Begin a plan, unless it is there or on its way.
@@ -111,7 +114,7 @@ class Plans:
         if (place / REFUSED).is_file():
             return PlanStatus.model_validate({**head, **read(place / REFUSED), "state": "refused"})
         return PlanStatus.model_validate(
-            {**head, "state": PlanState.INTERRUPTED, "detail": _INTERRUPTED}
+            {**head, "state": PlanState.INTERRUPTED, "detail": self._full.get(digest, _INTERRUPTED)}
         )
 
     def every(self) -> list[PlanStatus]:
@@ -180,17 +183,26 @@ class Plans:
     async def _make(self, digest: str, order: _Order) -> None:
         """Make a plan; whatever becomes of it is kept in its folder."""
         place = self._storage.plan(digest)
+        self._full.pop(digest, None)
         try:
-            async with self._desk.folder() as folder:
-                shutil.copy(self._storage.pattern(order.pattern) / PATTERN, folder)
-                said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
-                plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
-            write(place / DONE, {**said, "plan": plan})
+            with keeping(place):
+                await self._carry_out(place, order)
         except TooBusy:
             raise  # it was not begun
+        except DiskFull as error:
+            LOG.error("plan %s: %s", digest, error)
+            self._full[digest] = f"{error} Then ask for it again."
         except FoldmillError as error:
             if isinstance(error, SandboxFailed):
                 LOG.error("plan %s: %s", digest, error, extra={"log": error.log})
             write(place / REFUSED, {"detail": str(error)})
         finally:
             self._tasks.pop(digest, None)
+
+    async def _carry_out(self, place: Path, order: _Order) -> None:
+        """Plan in a folder of its own, and keep what comes of it."""
+        async with self._desk.folder() as folder:
+            shutil.copy(self._storage.pattern(order.pattern) / PATTERN, folder)
+            said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
+            plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
+        write(place / DONE, {**said, "plan": plan})

@@ -23,6 +23,7 @@ from foldmill_fabricate.plotter.errors import LedgerRefused, PlotterError
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.sandbox import Refused, SandboxFailed
 from foldmill_fabricate.service.urns import dashed, urn
+from foldmill_fabricate.space import DiskFull, is_full, keeping
 
 MEDIA_TYPE = "application/problem+json"
 LOG = logging.getLogger("foldmill.service")
@@ -56,6 +57,7 @@ register(NoSuchJob, 404)
 register(JobRefused, 409)
 register(LedgerRefused, 409)
 register(PlotterError, 503)
+register(DiskFull, 503)
 register(TooLarge, 413)
 
 
@@ -94,6 +96,7 @@ def of(error: FoldmillError) -> JSONResponse:
 def add_to(app: FastAPI) -> None:
     """Let an application answer every error like this."""
     app.add_exception_handler(FoldmillError, _foldmill)
+    app.add_exception_handler(OSError, _disk)
     app.add_exception_handler(RequestValidationError, _validation)
     app.add_exception_handler(HTTPException, _http)
     app.add_exception_handler(Exception, _unforeseen)
@@ -102,6 +105,18 @@ def add_to(app: FastAPI) -> None:
 async def _foldmill(_request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, FoldmillError)
     return of(error)
+
+
+async def _disk(request: Request, error: Exception) -> JSONResponse:
+    """Tell of a disk that is full; whatever else an operating system refuses is not foreseen."""
+    if not is_full(error):
+        raise error
+    try:
+        with keeping(request.app.state.desk.storage.folder):
+            raise error
+    except DiskFull as full:
+        LOG.error("%s", full)
+        return of(full)
 
 
 async def _validation(_request: Request, error: Exception) -> JSONResponse:

@@ -22,34 +22,61 @@ def binaries() -> Path | None:
     return next((place for place in places if (place / "initdb").exists()), None)
 
 
-@contextmanager
-def server(programs: Path) -> Iterator[str]:
-    """Run a server while the context lasts; yields its URL, without a database."""
-    place = Path(tempfile.mkdtemp(prefix="foldmill-pg-"))
-    as_user = _unprivileged(place)
-    try:
-        _run(as_user, programs / "initdb", "-D", place / "data", "-U", USER, "-A", "trust")
+class Server:
+    """A running server that can go away, as one that is updated or whose computer restarts."""
+
+    def __init__(self, programs: Path, place: Path) -> None:
+        self._as_user = _unprivileged(place)
+        self._control = programs / "pg_ctl", "-D", place / "data", "-w"
+        initialise = (programs / "initdb", "-D", place / "data", "-U", USER, "-A", "trust")
+        _run(self._as_user, *initialise)
         port = _free_port()
+        self.url = f"postgresql://{USER}@127.0.0.1:{port}"
         options = f"-p {port} -k {place} -c listen_addresses=127.0.0.1"
-        start = (programs / "pg_ctl", "-D", place / "data", "-w", "-l", place / "log")
-        _run(as_user, *start, "-o", options, "start")
+        self._start = ("-l", place / "log", "-o", options, "start")
+
+    def start(self) -> None:
+        """Start, and wait until it answers."""
+        _run(self._as_user, *self._control, *self._start)
+
+    def stop(self) -> None:
+        """Stop as if its power failed: nothing is ended in order, all connections are cut."""
+        _run(self._as_user, *self._control, "-m", "immediate", "stop")
+
+    @contextmanager
+    def away(self) -> Iterator[None]:
+        """Stop while the context lasts."""
+        self.stop()
         try:
-            yield f"postgresql://{USER}@127.0.0.1:{port}"
+            yield
         finally:
-            _run(as_user, programs / "pg_ctl", "-D", place / "data", "-m", "immediate", "stop")
+            self.start()
+
+
+@contextmanager
+def server(programs: Path) -> Iterator[Server]:
+    """Run a server while the context lasts; its URL names no database."""
+    place = Path(tempfile.mkdtemp(prefix="foldmill-pg-"))
+    try:
+        made = Server(programs, place)
+        made.start()
+        try:
+            yield made
+        finally:
+            made.stop()
     finally:
         shutil.rmtree(place, ignore_errors=True)
 
 
-def new_database(url: str, name: str) -> str:
+def new_database(at: Server, name: str) -> str:
     """Make an empty database in a server; return its SQLAlchemy URL."""
     import psycopg
 
-    with psycopg.connect(f"{url}/postgres", autocommit=True) as connection:
+    with psycopg.connect(f"{at.url}/postgres", autocommit=True) as connection:
         connection.execute(
             psycopg.sql.SQL("CREATE DATABASE {}").format(psycopg.sql.Identifier(name))
         )
-    return url.replace("postgresql:", "postgresql+psycopg:") + f"/{name}"
+    return at.url.replace("postgresql:", "postgresql+psycopg:") + f"/{name}"
 
 
 def _unprivileged(place: Path) -> list[str]:

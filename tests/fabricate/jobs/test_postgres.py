@@ -24,14 +24,14 @@ _NUMBERS = count()
 
 
 @pytest.fixture(scope="module")
-def server() -> Iterator[str]:
+def server() -> Iterator[postgres.Server]:
     assert PROGRAMS is not None
-    with postgres.server(PROGRAMS) as url:
-        yield url
+    with postgres.server(PROGRAMS) as running:
+        yield running
 
 
 @pytest.fixture
-def database(server: str) -> str:
+def database(server: postgres.Server) -> str:
     return postgres.new_database(server, f"jobs{next(_NUMBERS)}")
 
 

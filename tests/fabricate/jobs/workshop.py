@@ -11,7 +11,7 @@ import random
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -31,6 +31,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.clock import RealClock
+from foldmill_fabricate.plotter.errors import LedgerFailed
 from foldmill_fabricate.plotter.ledger import Entry, Record
 from foldmill_fabricate.plotter.simulator import faults
 from foldmill_fabricate.plotter.simulator.devices import adjusted
@@ -206,10 +207,13 @@ class Workshop:
     def attend(self, until: Callable[[], bool]) -> None:
         """Answer what is asked until something is so; raises where nothing moves any more."""
         end = time.monotonic() + PATIENCE
-        while not until():
-            for question in self.at.questions():
-                self._answer(question)
-                end = time.monotonic() + PATIENCE
+        while True:
+            with suppress(LedgerFailed):  # who looks meanwhile is told so, and looks again
+                if until():
+                    return
+                for question in self.at.questions():
+                    self._answer(question)
+                    end = time.monotonic() + PATIENCE
             assert time.monotonic() < end, self.log()
             time.sleep(0.03)
 

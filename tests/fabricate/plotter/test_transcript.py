@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -13,13 +14,34 @@ from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.link import clock_of, open_port
 from foldmill_fabricate.plotter.sender import send
 from foldmill_fabricate.plotter.simulator.machine import Simulator
-from foldmill_fabricate.plotter.transcript import Recorded, Replayed
+from foldmill_fabricate.plotter.transcript import Recorded, Replayed, recorded
 
 Make = Callable[..., Machine]
 Plug = Callable[[Simulator], str]
 PROGRAM = b"IN;SP1;VS10;" + b"".join(
     b"PU%d,0;PD%d,800;PD%d,0;" % (x, x, x) for x in range(0, 2000, 100)
 )
+
+
+FULL = Path("/dev/full")
+"""A file of Linux to which nothing can be written, for want of room."""
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="this system has no /dev/full")
+def test_where_a_transcript_has_no_room_the_machine_is_stopped_and_says_why(
+    machine: Make, plugged: Plug
+) -> None:
+    cutter = machine(handshake="esc-b")
+    simulator = Simulator(cutter)
+    with (
+        open_port(plugged(simulator), cutter) as port,
+        recorded(port, clock_of(port), FULL) as written,
+        pytest.raises(PlotterError, match=r"The disk of /dev is full.*Make room"),
+    ):
+        send(PROGRAM, written, cutter)
+    received = bytes(simulator.device.traffic.received)
+    assert b"PD" not in received
+    assert b"\x1b.K" in received, "the stop itself goes out, though it cannot be written down"
 
 
 @pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff", "enq-ack"])

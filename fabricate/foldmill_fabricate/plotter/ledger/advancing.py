@@ -10,6 +10,7 @@ from typing import Any
 
 from sqlalchemy import BindParameter, Engine, Update, bindparam, select, update
 
+from foldmill_fabricate.plotter.ledger import failing
 from foldmill_fabricate.plotter.ledger.tables import PROGRAMS, RUNS
 from foldmill_fabricate.plotter.ledger.values import State
 
@@ -25,18 +26,29 @@ class Advance:
     def __call__(self, sheet: str, number: int, token: int, sent: int, acked: int) -> bool:
         """Write them for good and return True; False, and nothing written, without the token.
 
-        One statement is one transaction: it compares and sets at once.
+        One statement is one transaction: it compares and sets at once. Raises LedgerFailed.
         """
         given = {"of": sheet, "nth": number, "with": token, "sent": sent, "acked": acked}
         values: Any = self._made.construct_params(given)
         if self._made.positiontup is not None:
             values = tuple(values[name] for name in self._made.positiontup)
+        try:
+            return self._written(values)
+        except self._engine.dialect.loaded_dbapi.Error as error:
+            found = failing.failed(error, self._engine)
+            raise (found or error) from None
+
+    def _written(self, values: Any) -> bool:
         connection = self._engine.raw_connection()
         try:
             cursor = connection.cursor()
             cursor.execute(self._text, values)
             connection.commit()
             return bool(cursor.rowcount == 1)
+        except BaseException as error:
+            if failing.is_lost(error, self._engine, connection.dbapi_connection):
+                connection.invalidate()
+            raise
         finally:
             connection.close()  # back to the pool, which undoes what was not committed
 

@@ -13,7 +13,7 @@ from typing import Any
 from sqlalchemy import Connection, insert, select
 from sqlalchemy.exc import SQLAlchemyError
 
-from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused, Spoiled
+from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused, Spoiled
 from foldmill_fabricate.plotter.ledger import origins, reading, words, writing
 from foldmill_fabricate.plotter.ledger.advancing import Advance
 from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
@@ -37,6 +37,7 @@ from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
 
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
 """Of a sheet's id: none that a hand-written one is mistaken for."""
+_CRASHED = "The run before was never ended: it crashed, or was killed."
 
 
 def state_folder() -> Path:
@@ -63,16 +64,21 @@ class Ledger:
     """The ledger in one database.
 
     place : a file, made where there is none, or an SQLAlchemy URL. now : the time on the wall.
-    Raises LedgerRefused where it cannot be opened.
+    Raises LedgerRefused where it cannot be opened. Every method raises LedgerFailed where the
+    database is away or full; what it was to write down is not, and may be tried again.
     """
 
     def __init__(self, place: Path | str, now: Callable[[], datetime] = utc) -> None:
         self._now = now
+        self._unended: dict[tuple[str, int, int], str] = {}
+        """Why runs ended of which that could not be written down, by sheet, number and token."""
         try:
             if isinstance(place, Path):
                 place.parent.mkdir(parents=True, exist_ok=True)
             self._engine = connect(place)
             self._advance = Advance(self._engine)
+        except LedgerFailed:
+            raise
         except (SQLAlchemyError, OSError) as error:
             reason = str(error).splitlines()[0]
             raise LedgerRefused(
@@ -191,7 +197,7 @@ class Ledger:
         with self._engine.begin() as at:
             row = program_row(at, sheet, number)
             if State(row.state) is State.RUNNING:
-                why = "The run before was never ended: it crashed, or was killed."
+                why = self._unended.pop((sheet, number, row.token), _CRASHED)
                 set_state(at, row, State.INTERRUPTED, note=why)
                 note(at, self._now(), sheet, number, f"interrupted: {why}")
         return self.record(sheet, number)
@@ -202,7 +208,18 @@ class Ledger:
             raise self.loss(run) or _fenced(run)
 
     def end(self, run: Run, state: State, why: str) -> None:
-        """End a run; raises Fenced where it lost its token, Spoiled its sheet."""
+        """End a run; raises Fenced where it lost its token, Spoiled its sheet.
+
+        Where that cannot be written down now, ``recover`` says why it ended.
+        """
+        try:
+            self._end(run, state, why)
+        except LedgerFailed:
+            if state is State.INTERRUPTED:
+                self._unended[run.sheet, run.number, run.token] = why
+            raise
+
+    def _end(self, run: Run, state: State, why: str) -> None:
         with self._engine.begin() as at:
             row = program_row(at, run.sheet, run.number)
             if row.token != run.token or not set_state(at, row, state, note=why):

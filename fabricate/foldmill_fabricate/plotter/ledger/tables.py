@@ -21,9 +21,16 @@ from sqlalchemy import (
     event,
 )
 
+from foldmill_fabricate.plotter.ledger import failing
+
 METADATA = MetaData()
 _READS = "foldmill_reads"
 """Execution option of a transaction that writes nothing."""
+_LASTING: dict[bool, dict[str, Any]] = {
+    True: {},
+    False: {"pool_pre_ping": True, "connect_args": {"connect_timeout": 5}},
+}
+"""How a file is opened, False: a server. A connection that it has cut is made anew before use."""
 
 SHEETS = Table(
     "sheets",
@@ -98,10 +105,11 @@ ANSWERS = Table(
 def connect(place: Path | str) -> Engine:
     """Open a ledger's database, a file's path or an SQLAlchemy URL, with all its tables."""
     url = f"sqlite:///{place}" if isinstance(place, Path) else place
-    engine = create_engine(url)
+    engine = create_engine(url, **_LASTING[url.startswith("sqlite")])
     if engine.dialect.name == "sqlite":
         event.listen(engine, "connect", _safe)
         event.listen(engine, "begin", _immediate)
+    failing.listen(engine)
     METADATA.create_all(engine)
     return engine
 

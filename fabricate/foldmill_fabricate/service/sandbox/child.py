@@ -21,6 +21,7 @@ from foldmill.errors import FoldmillError
 from foldmill.files import fence_process
 from foldmill_fabricate import confining
 from foldmill_fabricate.confining import Limits
+from foldmill_fabricate.space import is_full, sentence
 
 ARGUMENTS, RESULT, LOG = "arguments.json", "result.json", "log.txt"
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of linux/prctl.h
@@ -69,6 +70,10 @@ def _outcome(call: str, folder: Path, limits: Limits) -> dict[str, Any]:
             return {"value": _function(call)(folder, **arguments)}
     except FoldmillError as error:
         return {"kind": type(error).__name__, "refused": str(error)}
+    except OSError as error:
+        if is_full(error):
+            return {"kind": "DiskFull", "refused": sentence(folder)}
+        raise
 
 
 def _function(call: str) -> Callable[..., Any]:

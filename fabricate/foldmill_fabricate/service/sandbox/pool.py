@@ -19,9 +19,12 @@ from typing import Any
 
 from foldmill_fabricate.confining import Limits, TooMuch
 from foldmill_fabricate.service.sandbox.refusals import Refused, SandboxFailed, TooBusy
+from foldmill_fabricate.space import DiskFull, sentence
 
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "agg"}
 """A library's own threads would not survive the fork of a child."""
+_LEAST = 65_536
+"""bytes without which a child cannot even say why it has failed."""
 _ARGUMENTS, _RESULT, _LOG = "arguments.json", "result.json", "log.txt"
 
 
@@ -242,6 +245,8 @@ def _outcome(work: _Work, said: Mapping[str, Any]) -> Any:
     try:
         result = json.loads((work.folder / _RESULT).read_bytes())
     except (OSError, ValueError):
+        if shutil.disk_usage(work.folder.parent).free < _LEAST:
+            return DiskFull(sentence(work.folder.parent))
         return SandboxFailed(
             f"{work.what} failed by a fault of foldmill's, and nothing was kept. Tell who runs "
             "this service; its log has more.",
@@ -249,6 +254,8 @@ def _outcome(work: _Work, said: Mapping[str, Any]) -> Any:
         )
     if "refused" not in result:
         return result["value"]
+    if result["kind"] == DiskFull.__name__:
+        return DiskFull(result["refused"])
     if result["kind"] == "TooMuch":
         return TooMuch(result["refused"].replace("The work", work.what, 1))
     return Refused(result["refused"], result["kind"])
