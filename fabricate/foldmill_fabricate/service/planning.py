@@ -151,7 +151,8 @@ class Plans:
         place = self._storage.plan(digest)
         try:
             async with self._desk.folder() as folder:
-                shutil.copy(self._storage.pattern(order.pattern) / PATTERN, folder)
+                source = self._storage.pattern(order.pattern) / PATTERN
+                await asyncio.to_thread(shutil.copy, source, folder)
                 said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
                 plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
             write(place / DONE, {**said, "plan": plan})

@@ -13,18 +13,24 @@ from foldmill_fabricate.service.problems import Forbidden, TooLarge
 
 _PATIENCE = 60.0
 """s for a body to arrive."""
+_AT_ONCE = 1 << 20
+"""Bytes that are held until they are written, by a thread: a disk may be slow."""
 
 
 async def receive(request: Request, file: BinaryIO) -> None:
     """Write a body into a file as it arrives; raises TooLarge, or Forbidden where it stalls."""
-    count = 0
+    count, held = 0, bytearray()
     try:
         async with asyncio.timeout(_PATIENCE):
             async for part in request.stream():
                 count += len(part)
                 if count > MOST_UPLOAD:
                     raise TooLarge(f"The file is larger than {MOST_UPLOAD:,} bytes.")
-                file.write(part)
+                held += part
+                if len(held) >= _AT_ONCE:
+                    await asyncio.to_thread(file.write, held)
+                    held = bytearray()
+        await asyncio.to_thread(file.write, held)
     except TimeoutError:
         raise Forbidden(f"The file had not arrived after {_PATIENCE:g} s.", 408) from None
     except ClientDisconnect:
