@@ -12,7 +12,7 @@ from threading import Event, Thread
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate.choosing import NEW, choose_sheet
-from foldmill_fabricate.delivering import send_job
+from foldmill_fabricate.delivering import Sent, send_job
 from foldmill_fabricate.gates import Request
 from foldmill_fabricate.jobs.errors import Cancelled, GivenUp, JobRefused, Leave
 from foldmill_fabricate.jobs.hands import LOOK, Hands
@@ -24,7 +24,7 @@ from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
 from foldmill_fabricate.passes import Face, Gate, ProgramFile
-from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, Spoiled
+from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, PlotterError, Spoiled
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.plotter.sender import Progress
 from foldmill_fabricate.plotter.wish import Wish
@@ -40,8 +40,11 @@ class Tell:
     def sent(self, job: JobRecord, sheet: str, part: ProgramFile, progress: Progress) -> None:
         """Hear of an instruction that has left."""
 
-    def ended(self, job: JobRecord, sheet: str, part: ProgramFile, seconds: float) -> None:
-        """Hear of a program that has ended, and what it took by the clock."""
+    def ended(self, job: JobRecord, sent: Sent) -> None:
+        """Hear of a program that has ended, and how."""
+
+    def broke_off(self, job: JobRecord, why: PlotterError) -> None:
+        """Hear of a program that did not get to its end."""
 
 
 @dataclass(frozen=True)
@@ -187,8 +190,12 @@ class _Work:
             transcript=transcript,
             wish=self.wish,
         )
-        for sent in parts:
-            tell.ended(self.job, sheet, sent.program, sent.delivery.seconds)
+        try:
+            for sent in parts:
+                tell.ended(self.job, sent)
+        except PlotterError as error:
+            tell.broke_off(self.job, error)
+            raise
 
     def _trouble(self, why: str, sheet: str) -> None:
         """Ask a person to put right what is in the way; no: the job ends."""

@@ -6,6 +6,7 @@
     ├── PlotterError (OSError)           the port or the machine did not do its part
     │   ├── PortUnavailable              no such port, busy, not permitted, no such scheme
     │   ├── NoAnswer (TimeoutError)      silence where an answer was due
+    │   ├── LineDisturbed                bytes were lost or garbled between computer and machine
     │   ├── Stopped                      a person stopped it
     │   ├── Fenced                       another process has taken the run over
     │   │   └── Spoiled                  the sheet was given up while it was cut
@@ -29,6 +30,10 @@ class PortUnavailable(PlotterError):
 
 class NoAnswer(PlotterError, TimeoutError):
     """A machine that was silent where an answer was due."""
+
+
+class LineDisturbed(PlotterError):
+    """Bytes that were lost or garbled on their way, or found no room in the machine."""
 
 
 class Stopped(PlotterError):

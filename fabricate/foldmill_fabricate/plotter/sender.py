@@ -7,13 +7,15 @@ that a port has accepted prove nothing.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.clock import Clock
 from foldmill_fabricate.plotter.endings import Status as Status
 from foldmill_fabricate.plotter.errors import PlotterError, Stopped
+from foldmill_fabricate.plotter.flow import Flow as Flow
+from foldmill_fabricate.plotter.flow import Gauge
 from foldmill_fabricate.plotter.handshakes import choice
 from foldmill_fabricate.plotter.handshakes.feed import Feed
 from foldmill_fabricate.plotter.languages import longest, made_ready, spoken
@@ -34,6 +36,8 @@ class Progress:
     of_bytes: int
     instructions: int
     of_instructions: int
+    flow: Flow = field(default=Flow(), compare=False)
+    """how evenly the machine was fed so far"""
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,10 @@ class Delivery:
     """what is wrong, a sentence; empty for nothing"""
     proved: str = ""
     """what the machine's answers prove, and what they do not; empty for nothing"""
+    flow: Flow = field(default=Flow(), compare=False)
+    """how evenly the machine was fed"""
+    modelled: float = 0.0
+    """s of motion of what was sent, by the machine's figures"""
 
 
 class Book(Protocol):
@@ -122,6 +130,7 @@ class _Delivery:
 
     def __init__(self, session: Session, book: Book) -> None:
         self._session, self._book = session, book
+        self._gauge = Gauge(session)
 
     def run(
         self, program: bytes, job: Job, start: Start, tell: Callable[[Progress], None]
@@ -145,7 +154,8 @@ class _Delivery:
         count = sum(not part.asks for part in job.parts)
         seconds = session.clock.now() - began
         how = end.position, end.error, end.fault, end.proved
-        return Delivery(end.status, len(job.data), count, seconds, *how)
+        so = self._gauge.flow, job.seconds
+        return Delivery(end.status, len(job.data), count, seconds, *how, *so)
 
     def _stream(self, job: Job, feed: Feed, tell: Callable[[Progress], None]) -> None:
         total, count = len(job.data), sum(not part.asks for part in job.parts)
@@ -156,13 +166,18 @@ class _Delivery:
             feed.wait_for(number)
             self._book.advance(min(part.stroke + 1, job.strokes), feed.acked)
             self._session.write(part.data)
+            self._gauge.written(part, feed.busy_until)
             feed.written(number)
             if not part.asks:
                 sent, done = sent + len(part.data), done + 1
-                tell(Progress(sent, total, done, count))
+                tell(Progress(sent, total, done, count, self._gauge.flow))
 
     def _pause(self, feed: Feed) -> None:
         """Send nothing, tool up, for as long as a person wants that."""
+        if not self._session.wish.paused:
+            return
+        began = self._session.clock.now()
         while self._session.wish.paused:
             feed.idle()
             self._session.heed()
+        self._gauge.paused(self._session.clock.now() - began)

@@ -53,6 +53,8 @@ class Session:
         self.lift = b""
         """What lifts the tool, of the program that is sent."""
         self.line_free = clock.now()
+        self.late = 0.0
+        """s by which this computer has woken later than asked, at worst."""
         self._heard = b""
 
     def open(self) -> None:
@@ -86,7 +88,12 @@ class Session:
             now = self.clock.now()
             if now >= moment:
                 return
-            self.clock.sleep_until(min(moment, now + _LOOK))
+            self._sleep_until(min(moment, now + _LOOK))
+
+    def _sleep_until(self, moment: float) -> None:
+        """Sleep, and note by how much too long."""
+        self.clock.sleep_until(moment)
+        self.late = max(self.late, self.clock.now() - moment)
 
     def heed(self) -> None:
         """Raise Stopped where a person wants that."""

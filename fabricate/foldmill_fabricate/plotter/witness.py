@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import replace
+from math import inf
 
-from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer
 from foldmill_fabricate.plotter.handshakes.hp import HpSession
 from foldmill_fabricate.plotter.program import XY, Instruction, Job
 from foldmill_fabricate.plotter.resume import STEP
@@ -61,6 +62,8 @@ class Witness:
         self._open: deque[tuple[int, float]] = deque()
         self.executed = 0
         """Units that are known to be executed."""
+        self.seen_open = -inf, 0
+        """When a question was last seen to be unanswered, s, and its number."""
 
     @property
     def acked(self) -> int:
@@ -84,13 +87,15 @@ class Witness:
             self._open.append((number, deadline))
 
     def hear(self) -> None:
-        """Hear what has come; raises PlotterError.
+        """Hear what has come; raises LineDisturbed.
 
         That is where the machine says that it stands elsewhere than the program does, or reports an
         error.
         """
         while self._open and (proof := self._session.proof_at_hand()) is not None:
             self._prove(*proof)
+        if self._open:
+            self.seen_open = self._session.clock.now(), self._open[0][0]
 
     def overdue(self) -> None:
         """Raise NoAnswer where an answer should have come by now."""
@@ -114,16 +119,16 @@ class Witness:
         number, _ = self._open.popleft()
         at, wanted, stroke = position(place), self._parts[number].at, self._parts[number].stroke
         if at is None:
-            raise PlotterError(
+            raise LineDisturbed(
                 f"The plotter answered {place!r} where it should have told its position."
             )
         if wanted is not None and is_off(at, wanted):
-            raise PlotterError(
+            raise LineDisturbed(
                 f"After stroke {stroke + 1} the tool stands at {at[0]:g}, {at[1]:g} steps, and "
                 f"the program has it at {wanted[0]:g}, {wanted[1]:g}: something was lost."
             )
         if error != "0":
-            raise PlotterError(f"By stroke {stroke + 1}, {reported(error)}")
+            raise LineDisturbed(f"By stroke {stroke + 1}, {reported(error)}")
         self.executed = number + 1
 
 

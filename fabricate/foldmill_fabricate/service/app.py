@@ -8,28 +8,30 @@ from contextlib import asynccontextmanager
 from importlib.metadata import version
 
 from fastapi import FastAPI
-from fastapi.openapi.utils import get_openapi
 
 from foldmill import installed
-from foldmill_fabricate.service import problems
+from foldmill_fabricate.service import description, problems
 from foldmill_fabricate.service.desk import WORK, Desk
 from foldmill_fabricate.service.events import Followers
 from foldmill_fabricate.service.logs import PREFIX, Watch
 from foldmill_fabricate.service.metrics import Metrics, computing
-from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.planning import Plans
 from foldmill_fabricate.service.retention import Retention
 from foldmill_fabricate.service.routes import catalogue, events, health, jobs, patterns, plans
 from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.security import Guard, Policy
 from foldmill_fabricate.service.storage import Storage
+from foldmill_fabricate.service.warming import warm
 from foldmill_fabricate.service.workshop import Workshop
 
-ROUTERS = (catalogue.ROUTER, patterns.ROUTER, plans.ROUTER, jobs.ROUTER, events.ROUTER)
-ABOUT = """From an origami design to a sheet that a cutting plotter scores on both faces.
-
-Lengths in mm, angles in degrees, times in s. Errors are `application/problem+json`; their detail
-is a sentence for people. Whatever changes something is sent as JSON."""
+ROUTERS = (
+    catalogue.ROUTER,
+    patterns.ROUTER,
+    plans.ROUTER,
+    jobs.ROUTER,
+    events.ROUTER,
+    description.ROUTER,
+)
 
 
 def create(
@@ -43,9 +45,9 @@ def create(
     app = FastAPI(
         title="foldmill",
         version=version("foldmill"),
-        description=ABOUT,
+        description=description.ABOUT,
         lifespan=_lifespan,
-        openapi_url=f"{PREFIX}/openapi.json",
+        openapi_url=None,  # a route of ours, which does not hold up the others
         docs_url=None,  # its page loads scripts from elsewhere
         redoc_url=None,
     )
@@ -56,7 +58,6 @@ def create(
     problems.add_to(app)
     app.add_middleware(Guard, policy=app.state.policy)
     app.add_middleware(Watch, metrics=app.state.metrics)
-    app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     return app
 
 
@@ -81,6 +82,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     try:
         await asyncio.to_thread(installed)
         await asyncio.to_thread(workshop.start)
+        await warm(app)
         throwing_away = asyncio.create_task(app.state.retention.run())
         try:
             yield
@@ -91,17 +93,3 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(workshop.close)
         await app.state.plans.finish()
         await asyncio.to_thread(desk.sandbox.close)
-
-
-def _openapi(app: FastAPI) -> dict[str, object]:
-    """Return the description of all routes, with the form of a problem among the schemas."""
-    if app.openapi_schema is None:
-        made = get_openapi(
-            title=app.title, version=app.version, description=ABOUT, routes=app.routes
-        )
-        schemas = made.setdefault("components", {}).setdefault("schemas", {})
-        schemas["Problem"] = Problem.model_json_schema()
-        for unused in ("HTTPValidationError", "ValidationError"):
-            schemas.pop(unused, None)
-        app.openapi_schema = made
-    return app.openapi_schema

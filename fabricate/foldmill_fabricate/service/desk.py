@@ -49,12 +49,15 @@ class Desk:
 
     @asynccontextmanager
     async def folder(self) -> AsyncIterator[Path]:
-        """Give a folder for one piece of work; what is left of it afterwards is thrown away."""
-        made = self.sandbox.folder()
+        """Give a folder for one piece of work; what is left of it afterwards is thrown away.
+
+        Threads make it and throw it away: a disk that is slow must not keep others waiting.
+        """
+        made = await asyncio.to_thread(self.sandbox.folder)
         try:
             yield made
         finally:
-            shutil.rmtree(made, ignore_errors=True)
+            await asyncio.to_thread(shutil.rmtree, made, ignore_errors=True)
 
     async def read(self, folder: Path, said: Upload) -> Pattern:
         """Keep the pattern in the file ``upload`` of a folder."""
@@ -90,7 +93,7 @@ class Desk:
         place = self.storage.pattern(digest)
         if not (place / name).is_file():
             async with self.folder() as folder:
-                shutil.copy(place / PATTERN, folder)
+                await asyncio.to_thread(shutil.copy, place / PATTERN, folder)
                 await self.call("draw", {"name": name}, folder, DESIGNING, "The drawing")
                 (folder / name).replace(place / name)
         return place / name
@@ -117,7 +120,7 @@ class Desk:
         self, name: str, arguments: Mapping[str, Any], folder: Path, limits: Limits, what: str
     ) -> Pattern:
         about = await self.call(name, arguments, folder, limits, what)
-        self.storage.keep_pattern(folder, about)
+        await asyncio.to_thread(self.storage.keep_pattern, folder, about)
         return Pattern.model_validate(about)
 
     async def _once(self, kept: Path, name: str, source: Path, within: str, what: str) -> Any:

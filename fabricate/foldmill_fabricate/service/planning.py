@@ -202,7 +202,8 @@ class Plans:
     async def _carry_out(self, place: Path, order: _Order) -> None:
         """Plan in a folder of its own, and keep what comes of it."""
         async with self._desk.folder() as folder:
-            shutil.copy(self._storage.pattern(order.pattern) / PATTERN, folder)
+            source = self._storage.pattern(order.pattern) / PATTERN
+            await asyncio.to_thread(shutil.copy, source, folder)
             said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
             plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
         write(place / DONE, {**said, "plan": plan})

@@ -13,6 +13,8 @@ from foldmill_fabricate.service.problems import Forbidden, TooLarge
 
 _PATIENCE = 60.0
 """s for a body to arrive."""
+_AT_ONCE = 1 << 20
+"""Bytes that are held until they are written, by a thread: a disk may be slow."""
 
 
 async def receive(request: Request, file: BinaryIO, most: int = MOST_UPLOAD) -> None:
@@ -20,14 +22,18 @@ async def receive(request: Request, file: BinaryIO, most: int = MOST_UPLOAD) -> 
 
     Raises TooLarge, or Forbidden where it stalls.
     """
-    count = 0
+    count, held = 0, bytearray()
     try:
         async with asyncio.timeout(_PATIENCE):
             async for part in request.stream():
                 count += len(part)
                 if count > most:
                     raise TooLarge(f"The file is larger than {most:,} bytes.")
-                file.write(part)
+                held += part
+                if len(held) >= _AT_ONCE:
+                    await asyncio.to_thread(file.write, held)
+                    held = bytearray()
+        await asyncio.to_thread(file.write, held)
     except TimeoutError:
         raise Forbidden(f"The file had not arrived after {_PATIENCE:g} s.", 408) from None
     except ClientDisconnect:

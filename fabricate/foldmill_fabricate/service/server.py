@@ -25,6 +25,7 @@ from foldmill_fabricate.service.app import create
 from foldmill_fabricate.service.reach import reached
 from foldmill_fabricate.service.security import Policy, is_local
 from foldmill_fabricate.service.tokens import Tokens
+from foldmill_fabricate.service.warming import settle
 from foldmill_fabricate.service.workshop import Workshop
 
 LOG = logging.getLogger("foldmill.service")
@@ -87,6 +88,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start, and tell where."""
         await super().startup(sockets)
+        settle()
         if self.started:
             said = {"url": self._url, "pid": os.getpid(), "version": version("foldmill")}
             write_whole(self._file, json.dumps(said).encode())

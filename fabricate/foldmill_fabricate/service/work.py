@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,8 @@ LIMITS = Limits(size=MOST_UPLOAD)
 """Of a file that is uploaded."""
 PATTERN, UPLOAD, AS_CUT = "pattern.fold", "upload", "as-cut.svg"
 SHEET = TypeAdapter(SheetRecord)
+MOST_TOLD, LONGEST = 1000, 300
+"""Figures and findings, and letters of a title: a stranger's file may bring a million of them."""
 
 
 def warm() -> None:
@@ -75,7 +78,8 @@ def design(
 def check(folder: Path) -> dict[str, Any]:
     """Check ``pattern.fold``: its figures and findings."""
     found = check_fold(_fold(folder))
-    return {"figures": dict(found.figures), "findings": _plain(found.findings)}
+    figures = dict(islice(found.figures.items(), MOST_TOLD))
+    return {"figures": figures, "findings": _plain(found.findings)}
 
 
 def draw(folder: Path, name: str) -> str:
@@ -196,7 +200,7 @@ def _summary(fold: Fold) -> dict[str, Any]:
     solid = None if folded is None or not len(folded.vertices) else np.ptp(folded.vertices, axis=0)
     notes = fold.meta.get("fold", {}).get("notes", [])
     return {
-        "title": str(fold.meta.get("title", "")),
+        "title": str(fold.meta.get("title", ""))[:LONGEST],
         "vertices": len(pattern.vertices),
         "edges": len(pattern.edges),
         "faces": len(pattern.faces),
@@ -204,12 +208,16 @@ def _summary(fold: Fold) -> dict[str, Any]:
         "width": float(size[0]),
         "height": float(size[1]),
         "folded": None if solid is None else [float(side) for side in solid],
-        "notes": [str(note) for note in notes],
+        "notes": [str(note)[:LONGEST] for note in notes[:MOST_TOLD]],
     }
 
 
 def _plain(findings: Sequence[Finding]) -> list[dict[str, Any]]:
-    return [asdict(finding) for finding in findings]
+    told = [asdict(finding) for finding in findings[:MOST_TOLD]]
+    if len(findings) > MOST_TOLD:
+        rest = f"{len(findings) - MOST_TOLD:,} more findings are not listed."
+        told.append(asdict(Finding("more-findings", Severity.INFO, "", rest)))
+    return told
 
 
 def _fold(folder: Path) -> Fold:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-import time
 from pathlib import Path
 
 import httpx
 from fuzzed_uploads import fuzzed
+from pulse import asking
 from services import said, serving
 from soaking import Soak
 
@@ -26,13 +25,10 @@ def test_soak_fuzzed_uploads_are_refused_with_a_sentence_while_the_service_answe
         serving(tmp_path) as (_, url),
         httpx.Client(base_url=url, timeout=120) as client,
     ):
-        pulse = _Pulse(url)
-        pulse.start()
-        for k in range(count):
-            _judge(client, SEED + k)
-            progress.reached(k + 1)
-        pulse.over.set()
-        pulse.join()
+        with asking(url) as pulse:
+            for k in range(count):
+                _judge(client, SEED + k)
+                progress.reached(k + 1)
         assert len(pulse.seconds) > count / 10
         assert pulse.failed == 0
         if soak.whole:
@@ -56,22 +52,6 @@ def _judge(client: httpx.Client, seed: int) -> None:
             assert detail.endswith((".", "?")), (seed, detail)
             assert "Error" not in detail, (seed, detail)
             assert "a fault of" not in detail, (seed, detail)
-
-
-class _Pulse(threading.Thread):
-    """Asks again and again whether the service works."""
-
-    def __init__(self, url: str) -> None:
-        super().__init__(daemon=True)
-        self.over, self.seconds, self.failed = threading.Event(), list[float](), 0
-        self._url = url
-
-    def run(self) -> None:
-        with httpx.Client(base_url=self._url, timeout=30) as client:
-            while not self.over.wait(0.02):
-                began = time.perf_counter()
-                self.failed += client.get("/healthz").status_code != 200
-                self.seconds.append(time.perf_counter() - began)
 
 
 def test_ten_million_edges_are_refused_by_their_size_before_anything_is_read(

@@ -8,9 +8,9 @@ certain only when no byte before their proof was lost or garbled on the line.
 from __future__ import annotations
 
 from bisect import bisect_right
-from math import ceil
+from math import ceil, inf
 
-from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
 from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
 from foldmill_fabricate.plotter.handshakes.losses import lost
@@ -79,6 +79,12 @@ class Asked(Proving):
     def acked(self) -> int:
         """Strokes that are proved, and before which no byte was lost."""
         return self.witness.strokes_before(self._clean)
+
+    @property
+    def busy_until(self) -> float:
+        """As its proofs say, or as long as what it had not begun at the last answer takes."""
+        held = self._seen_at + self.sums.in_flight(min(self._done + 1, self.sent), self.sent)
+        return max(super().busy_until, held if self._free < self.session.buffer else -inf)
 
     def wait_for(self, number: int) -> None:
         """Return when it fits; asks at once when it does not."""
@@ -255,7 +261,7 @@ class Asked(Proving):
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
         told = lost(0 if error == MET else error)
         if told:
-            raise PlotterError(told)
+            raise LineDisturbed(told)
         self._clean, self._cleaned = self._proved, self.session.clock.now()
 
     def _check_progress(self) -> None:

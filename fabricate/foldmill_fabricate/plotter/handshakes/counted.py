@@ -9,9 +9,10 @@ at the program's last place.
 from __future__ import annotations
 
 from collections import deque
+from math import inf
 
 from foldmill_fabricate.plotter.endings import Ending, Status
-from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import NAP, SLACK, Sums
 from foldmill_fabricate.plotter.handshakes.grbl import GrblSession
 from foldmill_fabricate.plotter.program import Job
@@ -52,6 +53,11 @@ class Counted:
         if self._executed < len(self._sums.parts):
             return min(self._sums.parts[self._executed].stroke, self._job.strokes)
         return self._job.strokes
+
+    @property
+    def busy_until(self) -> float:
+        """Now, while a line waits for its ok, or G4 for the end of what is before it."""
+        return self._session.clock.now() if self._open or self._marks else -inf
 
     def wait_for(self, number: int) -> None:
         """Return when the line fits and not too much motion is unproved."""
@@ -124,7 +130,7 @@ class Counted:
 
     def _prove(self, number: int, oks: int) -> None:
         if oks != number:
-            raise PlotterError(
+            raise LineDisturbed(
                 f"Before line {number + 1} of the program the machine took {oks} lines: something "
                 "was lost on the line."
             )

@@ -45,6 +45,11 @@ class Feed(Protocol):
         """Strokes that are known to be executed: all before this one."""
         ...
 
+    @property
+    def busy_until(self) -> float:
+        """Until when the machine has something to do at least, s, by what it said; or -inf."""
+        ...
+
 
 class Sums:
     """Sums over the units of a job: bytes and seconds before each."""

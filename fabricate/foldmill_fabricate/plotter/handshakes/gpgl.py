@@ -7,9 +7,10 @@ done what it received; it has no word for errors, so that a delivery ends unconf
 from __future__ import annotations
 
 from collections import deque
+from math import inf
 
 from foldmill_fabricate.plotter.endings import Ending, Status
-from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import NAP, SLACK, Sums
 from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.program import Job
@@ -66,6 +67,7 @@ class Stated:
         self._room = session.buffer - reserve(session.buffer)
         self._sent = self._executed = 0
         self._began = self._asked = session.clock.now()
+        self._moving = -inf
 
     @property
     def acked(self) -> int:
@@ -73,6 +75,11 @@ class Stated:
         if self._executed < len(self._sums.parts):
             return min(self._sums.parts[self._executed].stroke, self._job.strokes)
         return self._job.strokes
+
+    @property
+    def busy_until(self) -> float:
+        """When it last said that it was moving."""
+        return self._moving
 
     def wait_for(self, number: int) -> None:
         """Return when the unit fits into the window; else wait for all before to be done."""
@@ -129,8 +136,10 @@ class Stated:
         if said == "2":
             raise PlotterError("The cutter says that nothing is loaded: see to sheet and lever.")
         if said not in ("0", "1"):
-            raise PlotterError(
+            raise LineDisturbed(
                 f"The cutter answered {said!r} where it should have told its status. Something "
                 "disturbs the line."
             )
+        if said == "1":
+            self._moving = self._asked
         return said == "0"

@@ -7,7 +7,7 @@ that found no room.
 
 from __future__ import annotations
 
-from foldmill_fabricate.plotter.errors import NoAnswer, PlotterError
+from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer
 from foldmill_fabricate.plotter.handshakes.hp import MET, HpSession
 from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
 from foldmill_fabricate.plotter.witness import Witness
@@ -33,7 +33,7 @@ class Losses:
         return self._clean if self._session.reports else self._witness.executed
 
     def look(self) -> None:
-        """Hear an answer that has come, or ask where something was proved; raises PlotterError."""
+        """Hear an answer that has come, or ask where something was proved; raises LineDisturbed."""
         session = self._session
         if not session.reports:
             return
@@ -64,7 +64,7 @@ class Losses:
         if session.hearing or session.proving:
             return  # two answers at once are an error
         if (stray := session.answer_at_hand()) is not None:
-            raise PlotterError(_disturbed(stray))
+            raise LineDisturbed(_disturbed(stray))
         session.ask_error()
         self._proved, self._places = self._witness.executed, session.places
         self._asked = session.line_free
@@ -74,10 +74,10 @@ class Losses:
             self._wait_on()
             return
         if not answer.isdigit():
-            raise PlotterError(_disturbed(answer))
+            raise LineDisturbed(_disturbed(answer))
         told = lost(0 if int(answer) == MET else int(answer))
         if told:
-            raise PlotterError(told)
+            raise LineDisturbed(told)
         assert self._proved is not None
         self._clean, self._proved = self._proved, None
 

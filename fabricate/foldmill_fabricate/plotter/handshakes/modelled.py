@@ -7,6 +7,7 @@ taken with caution. What is in flight is judged by proofs where the machine answ
 from __future__ import annotations
 
 from collections import deque
+from math import inf
 
 from foldmill_fabricate.plotter.errors import NoAnswer
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, NAP, SLACK
@@ -36,6 +37,13 @@ class Modelled(Proving):
         self._believed: deque[tuple[float, int]] = deque()
         """Questions that the model has passed, and no proof yet: when, s, and their numbers."""
         self._finished = session.clock.now()
+        self._held_at = -inf
+        """When the machine was last seen to hold the line, for it was full."""
+
+    @property
+    def busy_until(self) -> float:
+        """As its proofs say, or since it held the line."""
+        return max(super().busy_until, self._held_at)
 
     @property
     def ahead(self) -> float:
@@ -107,6 +115,7 @@ class Modelled(Proving):
         deadline = session.clock.now() + PATIENCE + SLACK * max(self.ahead, IN_FLIGHT)
         if self._guarded:
             while (session.unsent() or 0) > room:
+                self._held_at = session.clock.now()
                 if session.clock.now() >= deadline:
                     raise NoAnswer(
                         f"The plotter has held the line since instruction {self.sent} of "

@@ -38,6 +38,12 @@ class Proving:
         return self.witness.strokes_before(self.losses.certain)
 
     @property
+    def busy_until(self) -> float:
+        """As long as what was sent beyond a question takes, since that was last seen unanswered."""
+        when, number = self.witness.seen_open
+        return when + self.sums.in_flight(number, self.sent)
+
+    @property
     def answers(self) -> bool:
         """Whether the machine answers questions in its program."""
         return self.session.machine.serial.answers
