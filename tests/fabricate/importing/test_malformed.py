@@ -93,7 +93,7 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     ),
     "a share of a page": ("x.svg", svg('<line x2="50%" stroke="red"/>'), "is in %"),
     "a length of words": ("x.svg", svg('<circle r="big" stroke="red"/>'), "is no length"),
-    "clones": ("x.svg", svg('<use href="#a"/>'), "repeats parts of itself by <use>"),
+    "clones": ("x.svg", svg('<use href="#a"/>'), "sets in 'a' (<use>), which is not in it"),
     "an unknown colour": ("x.svg", path("M0 0L100 100", 'stroke="orange"'), "--as '#ffa500=M'"),
     "a painted stroke": ("x.svg", path("M0 0L100 100", 'stroke="url(#a)"'), "--as"),
     "a line that ends inside": ("x.svg", path("M0 0L50 60"), "--loose drop"),

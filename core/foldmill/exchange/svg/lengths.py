@@ -82,8 +82,8 @@ def refuse_unplaced(attributes: Mapping[str, str]) -> None:
     wide, high = px(attributes, "width"), px(attributes, "height")
     if not (wide > 0 and high > 0 and abs(wide * box[3] - high * box[2]) <= 1e-6 * wide * box[3]):
         raise UnreadableFile(
-            "A drawing within this drawing (<svg> in <svg>) has a viewBox of other proportions "
-            "than its width and height, or no such size; write both alike."
+            "A drawing within this drawing (<svg> in <svg>, or a <symbol>) has a viewBox of other "
+            "proportions than its width and height, or no such size; write both alike."
         )
 
 

@@ -12,9 +12,9 @@ from foldmill.exchange import colours, safe_xml
 from foldmill.exchange.drawing import Drawing, Look, drawing_of
 from foldmill.exchange.limits import DEFAULT, Limits
 from foldmill.exchange.safe_xml import Element
-from foldmill.exchange.svg import lengths, transforms
+from foldmill.exchange.svg import clones, lengths, transforms
 from foldmill.exchange.svg.shapes import SHAPES, traced
-from foldmill.exchange.svg.style import Sheet, classes, share, sheet_of, style_of
+from foldmill.exchange.svg.style import classes, share, sheet_of, style_of
 from foldmill.exchange.svg.transforms import STILL, Affine
 
 _GROUPS = {"svg", "g", "a", "switch"}
@@ -31,6 +31,9 @@ class _Place:
     affine: Affine = STILL
     style: dict[str, str] = field(default_factory=dict)
     layers: tuple[str, ...] = ()
+    clones: tuple[str, ...] = ()
+    """Ids of the parts that are being set in by <use>."""
+    depth: int = 0
 
 
 def read(content: bytes, limits: Limits = DEFAULT) -> Drawing:
@@ -42,7 +45,7 @@ def read(content: bytes, limits: Limits = DEFAULT) -> Drawing:
     if root.name != "svg":
         raise UnreadableFile(f"An SVG file begins with <svg>, this one with <{root.name}>.")
     across, down, millimetres = lengths.page(root.attributes)
-    reader = _Reader(sheet_of(root), limits)
+    reader = _Reader(root, limits)
     reader.group(root, _Place((across, 0.0, 0.0, down, 0.0, 0.0)))
     return drawing_of(
         np.concatenate(reader.segments).reshape(-1, 4).tolist() if reader.segments else [],
@@ -61,8 +64,11 @@ def _title(root: Element) -> str:
 
 
 class _Reader:
-    def __init__(self, sheet: Sheet, limits: Limits) -> None:
-        self.sheet = sheet
+    def __init__(self, root: Element, limits: Limits) -> None:
+        self.sheet = sheet_of(root)
+        self.named = clones.named(root)
+        self.drawn = 0
+        self.symbols: dict[int, Element] = {}
         self.limits = limits
         self.segments: list[np.ndarray[tuple[int, ...], np.dtype[np.float64]]] = []
         self.looks: list[Look] = []
@@ -73,18 +79,32 @@ class _Reader:
         place = self._placed(element, outer)
         if place is None:
             return
-        for child in element.children:
-            if child.name in _GROUPS:
-                self.group(child, self._inner(child, place))
-            elif child.name in SHAPES:
-                self._shape(child, place)
-            elif child.name == "use":
-                raise UnreadableFile(
-                    "This drawing repeats parts of itself by <use>, which is not followed. Unlink "
-                    "its clones (Inkscape: Edit, Clone, Unlink), and save it again."
-                )
-            elif child.name in _PICTURES:
-                self.left[_PICTURES[child.name]] += 1
+        shown = clones.chosen(element) if element.name == "switch" else element.children
+        for child in shown:
+            self._child(child, place)
+
+    def _child(self, child: Element, place: _Place) -> None:
+        """Read what is in a group, or set in; counted, since clones of clones are without end."""
+        self.drawn += 1
+        self.limits.check_elements(self.drawn)
+        if child.name in _GROUPS:
+            self.group(child, self._inner(child, place))
+        elif child.name in SHAPES:
+            self._shape(child, place)
+        elif child.name == "use":
+            self._clone(child, place)
+        elif child.name in _PICTURES:
+            self.left[_PICTURES[child.name]] += 1
+
+    def _clone(self, use: Element, outer: _Place) -> None:
+        """Read what a <use> sets in, in its place and with its style to inherit."""
+        place = self._placed(use, outer)
+        if place is None:
+            return
+        name, element = clones.target(use, self.named, outer.clones)
+        affine = transforms.after(place.affine, clones.place(use))
+        drawn = self.symbols.setdefault(id(use), clones.as_drawn(use, element))
+        self._child(drawn, replace(place, affine=affine, clones=(*outer.clones, name)))
 
     def _inner(self, child: Element, place: _Place) -> _Place:
         """Return the place within a drawing in a drawing, which has a page of its own."""
@@ -111,7 +131,16 @@ class _Reader:
         if said.get("transform", "none").strip() not in {"", "none"}:
             affine = transforms.after(affine, transforms.parse(said["transform"]))
         names = [said.get("id", ""), *classes(element), said.get(_LABEL, "")]
-        return _Place(affine, style, (*outer.layers, *(name for name in names if name)))
+        layers = (*outer.layers, *(name for name in names if name))
+        return _Place(affine, style, layers, outer.clones, self._deeper(outer))
+
+    def _deeper(self, outer: _Place) -> int:
+        if outer.depth > self.limits.depth:
+            raise UnreadableFile(
+                f"The parts of this drawing, with its clones set in, lie more than "
+                f"{self.limits.depth} deep in each other."
+            )
+        return outer.depth + 1
 
     def _shape(self, element: Element, outer: _Place) -> None:
         place = self._placed(element, outer)

@@ -39,9 +39,16 @@ class Sheet:
     """Selectors of several parts that must all fit."""
     unknown: int = 0
     """Rules that are not understood."""
+    known: dict[int, tuple[Element, dict[str, tuple[Rank, str]]]] = field(default_factory=dict)
+    """What is declared of elements, since clones are asked for again and again."""
 
     def declared(self, element: Element) -> dict[str, tuple[Rank, str]]:
         """Return what the rules say of an element, and how much it weighs."""
+        if id(element) not in self.known:
+            self.known[id(element)] = element, self._declared(element)
+        return self.known[id(element)][1]
+
+    def _declared(self, element: Element) -> dict[str, tuple[Rank, str]]:
         own = _parts_of(element)
         found: dict[str, tuple[Rank, str]] = {}
         for declarations in self._fitting(own):
