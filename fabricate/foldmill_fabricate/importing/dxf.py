@@ -21,6 +21,7 @@ from foldmill.errors import UnreadableFile
 from foldmill.exchange.drawing import Drawing, Look, drawing_of
 from foldmill.exchange.limits import Limits
 from foldmill.exchange.options import Options
+from foldmill_fabricate.importing import binary_dxf
 
 _TAG = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n")
 _HEADER_UNIT = re.compile(rb"\$INSUNITS\s+70\s+(\d{1,3})\b")
@@ -41,7 +42,9 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it says is 
 
 
 def recognised(head: bytes) -> bool:
-    """Tell by its begin whether a file is a DXF drawing in text."""
+    """Tell by its begin whether a file is a DXF drawing, in text or binary."""
+    if head.startswith(binary_dxf.MARK):
+        return True
     words = head.removeprefix(b"\xef\xbb\xbf").split(maxsplit=2)[:2]
     return words in ([b"0", b"SECTION"], [b"999"]) or words[:1] == [b"999"]
 
@@ -49,8 +52,8 @@ def recognised(head: bytes) -> bool:
 def read(content: bytes, _options: Options, limits: Limits) -> Drawing:
     """Return the lines of a DXF file; raises UnreadableFile for what is none, or broken."""
     limits.check_size(len(content))
-    if content.startswith(b"AutoCAD Binary DXF"):
-        raise UnreadableFile("This is a binary DXF; save it as an ASCII DXF.")
+    if content.startswith(binary_dxf.MARK):
+        content = binary_dxf.as_text(content, limits)
     limits.check_elements(sum(1 for _ in _TAG.finditer(content)))
     document = _document(content)
     reader = _Reader(document, limits)

@@ -129,7 +129,8 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     ),
     # DXF
     "words for a drawing": ("x.dxf", b"hello", "it has no section"),
-    "a binary drawing": ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\x00", "binary DXF"),
+    "a binary drawing": ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\x00\x00", "breaks off after 0"),
+    "a binary drawing of nothing": ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\x00", "no section"),
     "a drawing without lines": ("x.dxf", dxf(), "no lines"),
     "a line in space": (
         "x.dxf",
