@@ -22,7 +22,18 @@ _WORDS = {
     "V": ("valley", "valleys"),
     "B": ("boundary", "boundaries", "border", "borders", "outline", "contour"),
     "C": ("cut", "cuts", "cutting", "slit", "slits", "hole", "holes"),
-    "F": ("flat", "facet", "facets", "aux", "auxiliary", "triangulation", "guide", "guides"),
+    "F": (
+        "flat",
+        "facet",
+        "facets",
+        "aux",
+        "auxiliary",
+        "triangulation",
+        "guide",
+        "guides",
+        "noname",
+    ),
+    # noname: what ORIPA calls the layer of its auxiliary lines
     "U": ("unassigned", "hinge", "hinges", "undriven", "universal"),
     SKIP: ("note", "notes", "text", "label", "labels", "annotation", "annotations", "dimensions"),
 }
@@ -51,7 +62,7 @@ def named(looks: Sequence[Look], options: Options) -> Named:
     """
     count = Counter(looks)
     meant = {look: _meaning(look, options) for look in count}
-    _refuse_unknown({look: n for look, n in count.items() if meant[look] is None})
+    _refuse_unknown({look: n for look, n in count.items() if meant[look] is None}, len(count))
     letters = {look: letter or "" for look, letter in meant.items()}
     left_out = sum(n for look, n in count.items() if letters[look] in {"", SKIP})
     findings = [*_left_out(left_out), *_disputed(count, letters, options)]
@@ -112,7 +123,7 @@ def _words(layer: str) -> list[str]:
     return [part.lower() for part in _PARTS.findall(layer)]
 
 
-def _refuse_unknown(unknown: dict[Look, int]) -> None:
+def _refuse_unknown(unknown: dict[Look, int], looks: int) -> None:
     if not unknown:
         return
     names: Counter[str] = Counter()
@@ -121,8 +132,14 @@ def _refuse_unknown(unknown: dict[Look, int]) -> None:
     listed = [f"{count} in {name}" for name, count in names.most_common(_SHOWN)]
     more = f" and {len(names) - _SHOWN} others" if len(names) > _SHOWN else ""
     first = names.most_common(1)[0][0]
+    alike = (
+        "All lines are alike, so the file does not tell creases from the outline: save it in a "
+        "format and version that keeps colours or layers. If they are all the same, s"
+        if looks == 1
+        else "S"
+    )
     raise UnreadableFile(
-        f"Nothing says what these lines are: {', '.join(listed)}{more}. Say it with --as "
+        f"Nothing says what these lines are: {', '.join(listed)}{more}. {alike}ay it with --as "
         f"'{first}=M', or another of {' '.join(LETTERS)}, or skip; --as {OTHER}={SKIP} leaves them "
         f"all out."
     )

@@ -19,6 +19,8 @@ from foldmill.finding import Finding, Severity
 from foldmill.pattern import Flags, Floats, Indices
 
 _CUT = "BC"
+_DASHES = 8
+"""Lines that touch no other, from which on a person may have drawn dashes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,11 +107,8 @@ def _judge_loose(points: Floats, edges: Indices, kept: Flags, drop: bool) -> lis
     middle = lines.mean(axis=1)
     inside = np.asarray(shapely.contains_xy(sheet, middle[:, 0], middle[:, 1]), bool)
     if inside.any() and not drop:
-        raise UnreadableFile(
-            f"{_lines(int(inside.sum()))} inside the sheet without meeting another, first near "
-            f"({_xy(middle[inside][0])}) mm. Draw it on, let ends meet that are farther apart by "
-            f"--gap, or leave such lines out by --loose drop."
-        )
+        lone = inside & ~np.isin(edges[~kept], edges[kept]).any(axis=1)
+        raise _ends_inside(middle[inside], int(lone.sum()))
     kinds = (
         (~inside, "import-overshoot", "Lines beyond the outline were left out:"),
         (inside, "import-loose", "Lines that end inside the sheet were left out:"),
@@ -125,6 +124,16 @@ def _judge_loose(points: Floats, edges: Indices, kept: Flags, drop: bool) -> lis
         for which, code, words in kinds
         if which.any()
     ]
+
+
+def _ends_inside(spots: Floats, lone: int) -> UnreadableFile:
+    """Say where lines end inside the sheet, at spots (n, 2); lone : that touch none of the rest."""
+    dashes = " If they are dashes, draw each dashed crease as one line." if lone >= _DASHES else ""
+    return UnreadableFile(
+        f"{_lines(len(spots))} inside the sheet without meeting another, first near "
+        f"({_xy(spots[0])}) mm. Draw it on, let ends meet that are farther apart by --gap, or "
+        f"leave such lines out by --loose drop.{dashes}"
+    )
 
 
 def _lines(count: int) -> str:
@@ -211,7 +220,14 @@ def _settled(
         )
     if bare.any():
         message = "No line is said to be the outline, so the outermost lines were taken for it."
-        said.append(Finding("import-outline", Severity.WARNING, "", message))
+        rim = "".join(sorted(set(np.array(letters)[sides == 1].tolist())))
+        remedy = (
+            f"They are drawn as {' and '.join(rim)}. If what they are drawn in means cutting, say "
+            f"so by --as, as '#ff0000=C': inner lines drawn alike are scored otherwise."
+            if set(rim) & {*"MV"}
+            else ""
+        )
+        said.append(Finding("import-outline", Severity.WARNING, "", message, remedy))
     inner = int(np.count_nonzero((np.array(letters) == "B") & (sides == 2)))
     if inner:
         message = f"{inner} lines of the outline have paper on both sides: they are inner cuts."
@@ -219,6 +235,12 @@ def _settled(
     if not _has_creases(letters, sides):
         message = "No line of the drawing is a crease: none is mountain, valley or unassigned."
         remedy = "If some are, say which colour or layer they are by --as."
+        if inner:
+            remedy += (
+                " As it is, all inner lines are cut through. Where they look like the outline, "
+                "call them all U: the outermost are the outline then, and --unassigned front "
+                "scores the others."
+            )
         said.append(Finding("import-no-crease", Severity.WARNING, "", message, remedy))
     settled = [
         "B" if paper == 1 else "C" if letter in _CUT else letter

@@ -14,7 +14,10 @@ from foldmill.exchange.elements import array, brief, coordinates, faces_of, grap
 from foldmill.exchange.graph import Graph, is_order, numbered
 from foldmill.exchange.json_text import Frame
 from foldmill.exchange.keys import ADDED, CUT, DERIVED, JOIN, MILLIMETRES, OF, POLYGON, WRITTEN
-from foldmill.pattern import Assignment, CreasePattern, Floats, codes_of
+from foldmill.exchange.limits import DEFAULT
+from foldmill.pattern import Assignment, CreasePattern, Floats, Indices, codes_of
+from foldmill.planarise.lines import TOUCH_MM
+from foldmill.planarise.meetings import meetings
 from foldmill.triangulation import triangulate
 
 
@@ -137,6 +140,7 @@ def _found_faces(points: Floats, graph: Graph) -> list[list[int]]:
     for loop in loops:
         twice = next((v for k, v in enumerate(loop) if v in loop[:k]), None)
         if twice is not None:
+            _refuse_crossing(points, lines)
             raise UnreadableFile(
                 f"The lines at vertex {twice} end inside the sheet, so they bound no faces; remove "
                 f"them, or draw them on to another line."
@@ -144,6 +148,17 @@ def _found_faces(points: Floats, graph: Graph) -> list[list[int]]:
     if not loops:
         raise UnreadableFile("The lines of this file enclose no face.")
     return loops
+
+
+def _refuse_crossing(points: Floats, lines: Indices) -> None:
+    """Refuse lines that meet between their ends: they bound no faces before they are split."""
+    edge, _, vertex, spots = meetings(points, lines, TOUCH_MM, DEFAULT.lines)
+    if len(edge):
+        x, y = spots[vertex[0]]
+        raise UnreadableFile(
+            f"The edge {edge[0]} meets another between its ends, at ({x:.4g}, {y:.4g}) mm, and "
+            f"there is no vertex that both have; so it is at {len(np.unique(vertex))} places."
+        )
 
 
 def _check_sides(graph: Graph) -> None:

@@ -42,8 +42,12 @@ def laid_flat(data: Frame, wanted: int | None, notes: list[str]) -> Frame:
     graph = graph_of(frame, faces, [])
     solid = np.array(coordinates(frame, 3))
     size = _size(solid)
+    said = list(graph.letters), list(graph.angles)
     letters, angles = _believed(solid, graph, notes)
     flat = _flat(solid, graph, size)
+    if not any(angles) and any(said[1]):
+        notes.append("The sheet of the file stands in space but is not folded: it is the pattern.")
+        return _unfolded(data, frame, _upright(flat, solid, graph), graph, *said)
     notes.append("The file holds a folded form only; its facets were laid flat.")
     return _with_pattern(data, frame, _level(flat, graph), graph, letters, angles)
 
@@ -56,9 +60,18 @@ def _folded_only(every: list[Frame], wanted: int | None) -> int | None:
     for number in numbers:
         if 0 <= number < len(every):
             frame = frames.resolved(every, number)
-            if "foldedForm" in frame.get("frame_classes", []) and frame.get("vertices_coords"):
+            is_form = "foldedForm" in frame.get("frame_classes", [])
+            if frame.get("vertices_coords") and (is_form or _stands(frame, wanted)):
                 return number
     return None
+
+
+def _stands(frame: Frame, wanted: int | None) -> bool:
+    """Tell whether a frame of no said class, or said to be a pattern, lies in no level plane.
+
+    Some programs have y upward, so that their patterns stand upright.
+    """
+    return wanted is None and bool(frame.get("faces_vertices")) and not frames.is_flat(frame)
 
 
 def _any_pattern(every: list[Frame]) -> bool:
@@ -96,6 +109,18 @@ def _flat(solid: Floats, graph: Graph, size: float) -> Floats:
         )
     flat[np.isnan(flat)] = 0.0  # of vertices in no face
     return flat
+
+
+def _upright(flat: Floats, solid: Floats, graph: Graph) -> Floats:
+    """Return the sheet turned so that x points right, as it is seen in space."""
+    places, x = flat - flat.mean(axis=0), solid[:, 0] - solid[:, 0].mean()
+    right = np.linalg.lstsq(places, x, rcond=None)[0]
+    size = np.hypot(*right)
+    if size < 0.5:  # the sheet stands across the x axis
+        return _level(flat, graph)
+    u, v = right / size
+    upright: Floats = places @ np.array([[u, -v], [v, u]])
+    return upright
 
 
 def _level(flat: Floats, graph: Graph) -> Floats:
@@ -221,13 +246,30 @@ def _with_pattern(
     data: Frame, frame: Frame, flat: Floats, graph: Graph, letters: list[str], angles: list[float]
 ) -> Frame:
     """Return an object whose key frame is the pattern, the folded form after it."""
-    head = {key: value for key, value in data.items() if key.startswith("file_")}
-    other = {k: v for k, v in frame.items() if k not in _CARRIED and not k.startswith("frame_")}
     unit = {"frame_unit": frame["frame_unit"]} if "frame_unit" in frame else {}
     solid: dict[str, Any] = {
         key: frame[key] for key in ("faceOrders", "edgeOrders") if key in frame
     }
-    places = [[*place, 0.0][:3] for place in frame["vertices_coords"]]
+    form = {
+        "frame_classes": ["foldedForm"],
+        "frame_attributes": ["3D"],
+        "frame_parent": 0,
+        "frame_inherit": True,
+        **unit,
+        "vertices_coords": [[*place, 0.0][:3] for place in frame["vertices_coords"]],
+        **solid,
+    }
+    pattern = _unfolded(data, frame, flat, graph, letters, angles)
+    return {**pattern, "file_frames": [form]}
+
+
+def _unfolded(
+    data: Frame, frame: Frame, flat: Floats, graph: Graph, letters: list[str], angles: list[float]
+) -> Frame:
+    """Return an object whose one frame is the pattern."""
+    head = {k: v for k, v in data.items() if k.startswith("file_") and k != "file_frames"}
+    other = {k: v for k, v in frame.items() if k not in _CARRIED and not k.startswith("frame_")}
+    unit = {"frame_unit": frame["frame_unit"]} if "frame_unit" in frame else {}
     return {
         **head,
         **other,
@@ -238,15 +280,4 @@ def _with_pattern(
         "edges_assignment": letters,
         "edges_foldAngle": angles,
         "faces_vertices": graph.faces,
-        "file_frames": [
-            {
-                "frame_classes": ["foldedForm"],
-                "frame_attributes": ["3D"],
-                "frame_parent": 0,
-                "frame_inherit": True,
-                **unit,
-                "vertices_coords": places,
-                **solid,
-            }
-        ],
     }

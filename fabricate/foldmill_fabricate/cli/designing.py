@@ -200,12 +200,14 @@ def summary(fold: Fold) -> dict[str, object]:
 
     pattern = fold.pattern
     width, height = np.ptp(pattern.vertices, axis=0)
+    rare = {"unassigned": Assignment.U, "inner_cuts": Assignment.C}
     found: dict[str, object] = {
         "vertices": len(pattern.vertices),
         "faces": len(pattern.faces),
         "mountains": pattern.count(Assignment.M),
         "valleys": pattern.count(Assignment.V),
         "flats": pattern.count(Assignment.F),
+        **{name: pattern.count(each) for name, each in rare.items() if pattern.count(each)},
         "pattern_mm": f"{width:.1f} × {height:.1f}",
     }
     if fold.folded is not None:

@@ -19,6 +19,18 @@ from foldmill_fabricate.hooks import READERS, Reader, Sized
 _HEAD = 4096
 """Bytes by which a format is told."""
 _AS_IT_IS = Options()
+_PIXELS = "a picture of pixels", "Draw its lines anew in a drawing program, and save them as SVG."
+_OTHERS = {
+    b"%PDF": ("a PDF, as .ai files are too", "Open it in a drawing program and save it as SVG."),
+    b"%!PS": ("PostScript", "Open it in a drawing program and save it as SVG."),
+    b"\x89PNG": _PIXELS,
+    b"\xff\xd8\xff": _PIXELS,
+    b"GIF8": _PIXELS,
+    b"AC10": ("a DWG", "Save it as DXF."),
+    b"\x1f\x8b": ("compressed, as .svgz files are", "Save it as plain SVG."),
+    b"PK\x03\x04": ("an archive", "Unpack it first."),
+}
+"""By how they begin: what it is, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +103,7 @@ def _reader(suffix: str, head: bytes) -> Reader:
     readers: list[Reader] = list(installed().of(READERS).values())
     if not head.strip():
         raise UnreadableFile("This file is empty.")
+    _refuse_other(head)
     for reader in readers:
         if suffix in reader.suffixes:
             return reader
@@ -100,6 +113,13 @@ def _reader(suffix: str, head: bytes) -> Reader:
     raise UnreadableFile(
         f"This is no crease pattern that can be read. Those that can: {', '.join(suffixes())}."
     )
+
+
+def _refuse_other(head: bytes) -> None:
+    """Refuse what is known to be something else, saying how to make it what can be read."""
+    for mark, (what, remedy) in _OTHERS.items():
+        if head.startswith(mark):
+            raise UnreadableFile(f"This is {what}, whatever it is called. {remedy}")
 
 
 def _read(reader: Reader, content: bytes, options: Options, limits: Limits) -> tuple[Fold, bool]:

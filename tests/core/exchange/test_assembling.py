@@ -175,6 +175,33 @@ def test_creases_in_a_strip_nobody_can_fold_are_refused_by_place_and_width() -> 
     assert (lines(kept, "M"), lines(kept, "V")) == (2, 2)
 
 
+def test_dashes_drawn_one_by_one_are_told_to_be_one_line() -> None:
+    dashes = [(x, 50, x + 4, 50) for x in range(5, 95, 9)]
+    with pytest.raises(UnreadableFile, match=r"10 lines end inside .* If they are dashes, draw"):
+        sheet([*BOX, *dashes], "BBBB" + "M" * len(dashes))
+    with pytest.raises(UnreadableFile) as few:
+        sheet([*BOX, *dashes[:3]], "BBBBMMM")
+    assert "dashes" not in str(few.value)
+
+
+def test_an_outline_that_is_drawn_as_creases_is_asked_about() -> None:
+    # As for a laser: red is cut, the square in the middle too, and blue is scored.
+    hole = [(40, 40, 60, 40), (60, 40, 60, 60), (60, 60, 40, 60), (40, 60, 40, 40)]
+    drawn = [*BOX, *hole, (0, 50, 40, 50), (60, 50, 100, 50)]
+    told = {each.code: each for each in sheet(drawn, "MMMMMMMMVV").findings}["import-outline"]
+    assert "drawn as M" in str(told.remedy)
+    assert "=C" in str(told.remedy)
+    assert lines(sheet(drawn, "CCCCCCCCVV"), "C") == 6
+
+
+def test_a_drawing_in_one_kind_of_line_says_how_to_score_its_inside() -> None:
+    black = sheet([*BOX, (0, 50, 100, 50)], "BBBBB")
+    told = {each.code: each for each in black.findings}["import-no-crease"]
+    assert "cut through" in str(told.remedy)
+    told_u = sheet([*BOX, (0, 50, 100, 50)], "UUUUU")
+    assert (lines(told_u, "B"), lines(told_u, "U")) == (6, 1)
+
+
 def test_a_drawing_whose_lines_cross_too_often_is_refused_before_it_is_cut_up() -> None:
     spread = range(1, 20)
     drawn = [

@@ -184,3 +184,15 @@ def _damage(data: dict[str, Any], rng: random.Random) -> None:
         else:
             holder[key] = deepcopy(rng.choice(JUNK))
         return
+
+
+def test_lines_that_cross_without_a_vertex_are_refused_as_such() -> None:
+    crossed = {
+        **SQUARE,
+        "edges_vertices": [*SQUARE["edges_vertices"], [1, 3]],
+        "edges_assignment": [*"BBBBVM"],
+        "faces_vertices": None,
+    }
+    crossed = {key: value for key, value in crossed.items() if value is not None}
+    with pytest.raises(UnreadableFile, match=r"edge 4 meets another .* at \(5, 5\) mm"):
+        read(json.dumps(crossed))

@@ -65,6 +65,7 @@ def test_colours_mean_what_crease_pattern_programs_mean(word: str, letter: str |
         ("mountains and valleys", None),
         ("countryside", None),
         ("Notes", "skip"),
+        ("noname", "F"),  # auxiliary lines, as ORIPA writes them
     ],
 )
 def test_layers_mean_what_their_words_say(layer: str, letter: str | None) -> None:
@@ -130,3 +131,13 @@ def test_lines_of_no_colour_are_named_as_the_question_calls_them() -> None:
     with pytest.raises(UnreadableFile, match="--as 'no colour=M'"):
         named([Look()], Options())
     assert named([Look()], Options(named={"no colour": "M"})).letters == ("M",)
+
+
+def test_where_all_lines_are_alike_it_is_said_that_the_file_tells_nothing() -> None:
+    # As a DXF that drops colours.
+    grey = Look("", ("Layer 1",))
+    with pytest.raises(UnreadableFile, match=r"All lines are alike.*--as 'Layer 1=M'"):
+        named([grey] * 3, Options())
+    with pytest.raises(UnreadableFile) as refused:
+        named([grey, Look("", ("Layer 2",))], Options())
+    assert "alike" not in str(refused.value)

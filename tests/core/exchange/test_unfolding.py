@@ -114,6 +114,33 @@ def test_a_form_seen_from_its_back_is_turned_over() -> None:
     assert ("turned over" in notes(valley)) != ("turned over" in notes(mountain))
 
 
+@pytest.mark.parametrize("classes", [["foldedForm"], ["creasePattern"], []])
+def test_a_form_that_is_not_folded_yet_is_the_pattern(classes: list[str]) -> None:
+    # As Origami Simulator saves a model at 0 %: a foldedForm in space that lies flat.
+    said = [*"BBBBMVMU"], [*[None] * 4, -180, 120, -180, None]
+    places = [[-0.5, 0, -0.5], [0.5, 0, -0.5], [0.5, 0, 0.5], [-0.5, 0, 0.5], [0.0, 0, 0.1]]
+    pairs = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]]
+    saved = {
+        "file_creator": "Origami Simulator: http://git.io/origami",
+        "frame_classes": classes,
+        "frame_attributes": ["3D"],
+        "frame_unit": "unit",
+        "vertices_coords": places,
+        "edges_vertices": pairs,
+        "edges_assignment": said[0],
+        "edges_foldAngle": said[1],
+        "faces_vertices": [[0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]],
+    }
+    fold = read(saved, width=100)
+    assert fold.folded is None
+    assert "is not folded: it is the pattern" in notes(fold)
+    assert fold.pattern.letters() == "BBBBMVMU"
+    assert fold.pattern.fold_angles.tolist() == [0, 0, 0, 0, -180, 120, -180, 0]
+    # Seen from above, where its facets run counter-clockwise, z points downward.
+    seen = 100 * np.array(places)[:, [0, 2]] * [1, -1] + 50
+    assert np.allclose(fold.pattern.vertices, seen)
+
+
 def test_a_pattern_is_taken_as_it_is() -> None:
     fold = read((SAMPLES / "fold_diagonal-cp.fold").read_bytes(), scale=1.0)
     assert "laid flat" not in notes(fold)

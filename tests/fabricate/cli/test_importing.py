@@ -56,11 +56,26 @@ def test_unassigned_creases_are_asked_for_by_import_and_by_plan(foldmill: Run) -
     code, out, _ = foldmill("import", "x.svg", "-o", "x.fold", "--scale", "2", "--json")
     assert code == 0
     assert [each["option"] for each in json.loads(out)["questions"]] == ["--unassigned"]
+    assert json.loads(out)["unassigned"] == 1
     code, _, err = foldmill("plan", "x.svg", "--scale", "2", "-o", "job")
     assert code == 2
     assert "--unassigned" in err
     words = ("plan", "x.svg", "--scale", "2", "-o", "job", "--to", "hpgl", "--unassigned", "front")
     assert foldmill(*words)[0] == 0
+
+
+def test_fold_angles_in_radians_are_asked_about_and_answered(foldmill: Run) -> None:
+    pinwheel = json.loads((SAMPLES / "fold_diagonal-cp.fold").read_text(encoding="utf-8"))
+    turns = {"V": 3.14159, "M": -3.14159}
+    pinwheel["edges_foldAngle"] = [turns.get(each, 0) for each in pinwheel["edges_assignment"]]
+    Path("x.fold").write_text(json.dumps(pinwheel), encoding="utf-8")
+    code, _, err = foldmill("import", "x.fold", "--width", "90", "-o", "y.fold")
+    assert code == 2
+    assert "they are radians" in err
+    words = ("import", "x.fold", "--width", "90", "-o", "y.fold", "--angles", "radians")
+    assert foldmill(*words)[0] == 0
+    angles = json.loads(Path("y.fold").read_text(encoding="utf-8"))["edges_foldAngle"]
+    assert {abs(angle) for angle in angles} == {0, 180}
 
 
 @pytest.mark.parametrize(

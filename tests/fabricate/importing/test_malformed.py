@@ -60,7 +60,7 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     # XML
     "an empty file": ("x.svg", b"", "is empty"),
     "spaces only": ("x.svg", b" \n ", "is empty"),
-    "a picture": ("x.svg", b"\x89PNG\r\n\x1a\n", "This is no XML"),
+    "a picture by another name": ("x.svg", b"\x89PNG\r\n\x1a\n", "picture of pixels"),
     "an open element": ("x.svg", b"<svg><g>", "no element found at line 1"),
     "crossed elements": ("x.svg", b"<svg><g></svg></g>", "mismatched tag"),
     "two roots": ("x.svg", b"<svg/><svg/>", "junk after document element"),
@@ -130,6 +130,10 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     # DXF
     "words for a drawing": ("x.dxf", b"hello", "it has no section"),
     "a binary drawing": ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\x00\x00", "breaks off after 0"),
+    "a PDF": ("x.svg", b"%PDF-1.7", "This is a PDF"),
+    "a DWG": ("x.dxf", b"AC1027", "Save it as DXF"),
+    "a compressed drawing": ("x.svgz", b"\x1f\x8b\x08", "plain SVG"),
+    "an archive": ("x", b"PK\x03\x04", "Unpack it"),
     "a binary drawing of nothing": ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\x00", "no section"),
     "a drawing without lines": ("x.dxf", dxf(), "no lines"),
     "a line in space": (

@@ -47,6 +47,7 @@ def read(content: bytes, limits: Limits = DEFAULT) -> Drawing:
     across, down, millimetres = lengths.page(root.attributes)
     reader = _Reader(root, limits)
     reader.group(root, _Place((across, 0.0, 0.0, down, 0.0, 0.0)))
+    _refuse_fills(reader)
     return drawing_of(
         np.concatenate(reader.segments).reshape(-1, 4).tolist() if reader.segments else [],
         reader.looks,
@@ -56,6 +57,15 @@ def read(content: bytes, limits: Limits = DEFAULT) -> Drawing:
         title=_title(root),
         limits=limits,
     )
+
+
+def _refuse_fills(reader: _Reader) -> None:
+    fills = reader.left["shapes without a line"]
+    if fills and not reader.segments:
+        raise UnreadableFile(
+            f"There are no lines in this file: its shapes, {fills} of them, have no stroke. Give "
+            f"them one in the colour of their kind; what a fill shows is not read."
+        )
 
 
 def _title(root: Element) -> str:

@@ -239,6 +239,11 @@ def test_what_is_not_seen_is_left_out_and_told() -> None:
     )
 
 
+def test_a_drawing_of_fills_alone_is_refused_with_what_to_do() -> None:
+    with pytest.raises(UnreadableFile, match="2 of them, have no stroke"):
+        drawn('<rect width="9" height="9" fill="red"/><circle r="2"/>')
+
+
 def test_a_doctype_that_only_names_a_dtd_is_no_bomb() -> None:
     head = '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://nowhere.invalid/svg11.dtd">'
     drawing = svg.read((head + HEAD.format("", LINE)).encode())
