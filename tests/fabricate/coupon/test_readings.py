@@ -34,6 +34,7 @@ class Mechanics:
     """A plotter written down once more: homogeneous matrices, both passes, exact readings."""
 
     def __init__(self, plan: Plan, real: np.ndarray, lies: tuple[float, float]) -> None:
+        """lies : how far a flipped sheet really lies; it is turned as the machine knows."""
         axes, stored = plan.machine.axes, plan.machine.two_sides
         told = matrix(axes.scale_x, axes.scale_y, axes.skew)
         whole = np.eye(3)
@@ -43,8 +44,10 @@ class Mechanics:
         turn = np.diag([-1.0, 1, 1] if left_right else [1.0, -1, 1])
         turn[0 if left_right else 1, 2] = 2 * plan.flip.axis
         self.front = np.linalg.inv(corner) @ whole @ corner
-        sheet = corner @ _shift(*lies)  # where the flipped sheet really lies
-        follow = _shift(stored.dx, stored.dy) if stored.flip == plan.flip.kind else np.eye(3)
+        same = stored.flip == plan.flip.kind
+        leant = _turn(stored.angle * same)
+        sheet = corner @ _shift(*lies) @ leant  # where the flipped sheet really lies
+        follow = _shift(stored.dx, stored.dy) @ leant if same else np.eye(3)
         self.reverse = turn @ np.linalg.inv(sheet) @ whole @ corner @ follow @ turn
 
     def distance(self, a: tuple[float, float], b: tuple[float, float]) -> float:
@@ -77,6 +80,11 @@ def _shift(dx: float, dy: float) -> np.ndarray:
     return moved
 
 
+def _turn(angle: float) -> np.ndarray:
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
 def told(plan: Plan, **changes: Any) -> Plan:
     """Return the plan on a machine that was calibrated before."""
     machine: Machine = plan.machine.model_copy(update=changes)
@@ -90,6 +98,7 @@ def told(plan: Plan, **changes: Any) -> Plan:
     skew=st.floats(-0.1, 0.1),
     lies=st.tuples(st.floats(-0.4, 0.4), st.floats(-0.4, 0.4)),
     before=st.tuples(st.floats(-0.3, 0.3), st.floats(-0.3, 0.3)),
+    angle=st.sampled_from([0.0, 0.0, 0.05, -0.03]),
     flip=st.sampled_from(["left-right", "end-over-end"]),
 )
 def test_exact_readings_give_the_machine_back_exactly(
@@ -98,11 +107,14 @@ def test_exact_readings_give_the_machine_back_exactly(
     skew: float,
     lies: tuple[float, float],
     before: tuple[float, float],
+    angle: float,
     flip: Any,
 ) -> None:
     _, plan = coupon(flip=flip)
     axes = plan.machine.axes.model_copy(update={"scale_x": 1.002, "scale_y": 0.999, "skew": 0.03})
-    stored = TwoSides.model_validate({"dx": before[0], "dy": before[1], "flip": flip})
+    stored = TwoSides.model_validate(
+        {"dx": before[0], "dy": before[1], "angle": angle, "flip": flip}
+    )
     plan = told(plan, axes=axes, two_sides=stored)
     made = Mechanics(plan, matrix(x, y, skew), lies)
     bars = declared(plan).bars
@@ -123,6 +135,22 @@ def test_exact_readings_give_the_machine_back_exactly(
     calibrated = matrix(found.scale_x, found.scale_y, found.skew)
     assert matrix(x, y, skew) @ calibrated == pytest.approx(np.eye(2), abs=2e-6)
     assert (found.dx, found.dy) == pytest.approx(lies, abs=3e-4)
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_where_one_vernier_was_read_the_other_axis_stays_as_it_was(axis: str) -> None:
+    _, plan = coupon()
+    stored = TwoSides.model_validate({"dx": 0.2, "dy": -0.1, "angle": 0.05})
+    plan = told(plan, two_sides=stored)
+    k = 0 if axis == "x" else 1
+    lies = (0.35, -0.1) if k == 0 else (0.2, -0.3)
+    made = Mechanics(plan, np.eye(2), lies)
+    own = [made.read(each) for each in declared(plan).verniers if each.axis == axis]
+    [number] = [each for each in own if each is not None]
+    found = measure(plan, declared(plan), answers(vernier={axis: number}))
+    wanted: list[Any] = [None, None]
+    wanted[k] = pytest.approx(lies[k], abs=1e-3)
+    assert [found.dx, found.dy] == wanted
 
 
 def test_a_machine_without_a_fault_is_left_as_it_is() -> None:
