@@ -14,17 +14,15 @@ from tempfile import TemporaryDirectory
 from foldmill_fabricate import shelf
 from foldmill_fabricate.foreign import Asked, make_folder
 
-PRIORITY = 5
-
 
 def warm() -> None:
-    """Take the priority back, where that is allowed, and load what plans drawings."""
+    """Take the priority of the tests, where that is allowed, and load what plans drawings."""
     with TemporaryDirectory() as place:
         asked = Asked(pen=("1=cut",), material="pp-0.75", machine="generic-hpgl-600")
         of, on = shelf.material(asked.material), shelf.machine(asked.machine)
         make_folder(b"SP1;PD;PU400,400;CI400;", asked, of, on, Path(place) / "job")
     with suppress(PermissionError):
-        os.setpriority(os.PRIO_PROCESS, 0, PRIORITY)
+        os.setpriority(os.PRIO_PROCESS, 0, os.getpriority(os.PRIO_PROCESS, os.getppid()))
 
 
 def of_tests() -> str:

@@ -26,8 +26,8 @@ from foldmill_fabricate.service.desk import DRAWN, READING, WORK
 from foldmill_fabricate.service.models import Upload
 from foldmill_fabricate.service.sandbox import Limits, Refused, Sandbox, TooMuch
 
-SEED, SAMPLE, WHOLE = 80_000, 40, 10_000
-HTTP_SEED, HTTP_SAMPLE, HTTP_WHOLE = 70_000, 12, 200
+SEED, SAMPLE, WHOLE = 80_000, 16, 10_000
+HTTP_SEED, HTTP_SAMPLE, HTTP_WHOLE = 70_000, 6, 200
 QUICK = 0.1
 """s within which a service answers whether it works, on a machine with nothing else to do."""
 _HEADERS = {"content-type": "application/octet-stream", "x-foldmill": "1"}
@@ -49,9 +49,11 @@ def test_soak_uploads_are_taken_or_refused_with_a_sentence_inside_the_limits(
                 begun = under_way.popleft()
                 became[begun.form, begun.ended()] += 1
                 progress.reached(begun.seed - SEED + 1)
-    if progress.before == 0:
-        assert {form for form, _ in became} == {"fold", "svg", "dxf", "cp", "opx", HPGL}
-        assert sum(became[form, "taken"] for form in ("fold", "svg", "dxf", HPGL)) > 0
+    assert {end for _, end in became} <= {"taken", "Refused", "TooMuch"}
+    assert {form for form, end in became if end == "Refused"} >= {"fold", "svg", "dxf", HPGL}
+    if soak.whole and not progress.before:
+        assert {form for form, end in became if end == "taken"} >= {"fold", "svg", "dxf", HPGL}
+        print(dict(became))
 
 
 @contextmanager
