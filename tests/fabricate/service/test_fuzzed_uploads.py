@@ -53,7 +53,6 @@ def test_soak_uploads_are_taken_or_refused_with_a_sentence_inside_the_limits(
     assert {form for form, end in became if end == "Refused"} >= {"fold", "svg", "dxf", HPGL}
     if soak.whole and not progress.before:
         assert {form for form, end in became if end == "taken"} >= {"fold", "svg", "dxf", HPGL}
-        print(dict(became))
 
 
 @contextmanager
