@@ -111,7 +111,7 @@ def _svg_odd(chance: Chance) -> bytes:
 
 
 def _svg_many(chance: Chance) -> bytes:
-    count = chance.choice([900] * 14 + [20_000, 250_000])
+    count = chance.choice([900] * 40 + [20_000, 250_000])
     kinds = [
         '<line x2="9" y2="9" stroke="red"/>' * count,
         f'<path stroke="red" d="M0 0{"L9 9L0 9" * count}"/>',
@@ -124,7 +124,7 @@ def _svg_many(chance: Chance) -> bytes:
 
 
 def _svg_crossing(chance: Chance) -> bytes:
-    count = chance.choice([5, 20, 20, 20, 40])
+    count = chance.choice([5, 9, 9, 9, 20, 40])
     rows = []
     for _ in range(count):
         x, y, u, v = (chance.uniform(0, 100) for _ in range(4))
@@ -202,7 +202,7 @@ def _dxf_blocks(chance: Chance) -> bytes:
 
 
 def _dxf_many(chance: Chance) -> bytes:
-    count = chance.choice([400] * 6 + [2_000, 20_000, 600_000])
+    count = chance.choice([400] * 40 + [2_000, 20_000, 600_000])
     kinds = [
         "0\nLINE\n" * count,
         f"{_BENT} 90 {count} 70 0 {'10 1 20 2 10 3 20 4 ' * (count // 4)}",

@@ -55,7 +55,7 @@ def tidy(rng: random.Random) -> bytes:
 
 def bomb(rng: random.Random) -> bytes:
     """Return a small file that would become large, or a large one that says little."""
-    big = rng.choice([100] * 6 + [1_000, 30_000, 250_000])
+    big = rng.choice([100] * 40 + [1_000, 30_000, 250_000])
     return rng.choice(
         [
             b"IN;SP1;" + b"CI400,0.01;" * 50,

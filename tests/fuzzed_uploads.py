@@ -124,7 +124,7 @@ def _twice(chance: Chance) -> bytes:
 
 
 def _many(chance: Chance) -> bytes:
-    count = chance.choice([600] * 6 + [60_000, 250_000])
+    count = chance.choice([600] * 20 + [60_000, 250_000])
     frame = {"vertices_coords": [[k % 1000, k // 1000] for k in range(count)]}
     return _text({**frame, "edges_vertices": [[0, 1]]})
 
@@ -165,7 +165,7 @@ def _cp(chance: Chance) -> bytes:
     odd = ["1e999", "nan", "", "x", "9" * 40, str(chance.uniform(-400, 400))]
     rows = [
         f"{chance.randint(0, 5)} {chance.uniform(-200, 200)} {chance.choice(odd)} 0 {k}"
-        for k in range(chance.choice([1, 9, 9, 20, 20, 20, 20, 300_000]))
+        for k in range(chance.choice([1, 9, 9, 20, 20, 20, 20] * 4 + [300_000]))
     ]
     return "\n".join(rows).encode()
 
@@ -186,10 +186,9 @@ _FOLD: list[Callable[[Chance], bytes]] = [
     _strange,
 ]
 _HPGL: list[Callable[[Chance], bytes]] = [
-    fuzzed_hpgl.written,
-    fuzzed_hpgl.written,
-    fuzzed_hpgl.written,
+    *[fuzzed_hpgl.written] * 6,
     fuzzed_hpgl.tidy,
+    fuzzed_hpgl.odd,
     fuzzed_hpgl.odd,
     fuzzed_hpgl.bomb,
 ]

@@ -45,7 +45,7 @@ def test_soak_uploads_are_taken_or_refused_with_a_sentence_inside_the_limits(
         under_way: deque[_Begun] = deque()
         for k in range(progress.before, count):
             under_way.append(_begin(sandbox, SEED + k))
-            while len(under_way) > (0 if k + 1 == count else 2 * sandbox.at_once):
+            while len(under_way) > (0 if k + 1 == count else sandbox.waiting):
                 begun = under_way.popleft()
                 became[begun.form, begun.ended()] += 1
                 progress.reached(begun.seed - SEED + 1)
