@@ -57,10 +57,13 @@ def test_soak_uploads_are_taken_or_refused_with_a_sentence_inside_the_limits(
 
 @contextmanager
 def unhurried(folder: Path) -> Iterator[Sandbox]:
-    """Give a sandbox as the service has it, at the priority of these tests."""
+    """Give a sandbox as the service has it, at the priority of these tests.
+
+    It does more at once, so that one file that takes long does not hold up all others.
+    """
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", of_tests())
-        box = Sandbox(folder, [WORK, "unhurried"], at_once=os.cpu_count())
+        box = Sandbox(folder, [WORK, "unhurried"], at_once=2 * (os.cpu_count() or 1))
         assert box.wait_ready()
     try:
         yield box
