@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 import time
 from pathlib import Path
@@ -14,6 +15,10 @@ KEPT: list[int] = []
 
 def echo(folder: Path, **arguments: Any) -> dict[str, Any]:
     return {"here": str(folder), **arguments}
+
+
+def loaded(folder: Path, names: list[str]) -> list[str]:
+    return [name for name in names if name in sys.modules]
 
 
 def remember(folder: Path, number: int) -> list[int]:

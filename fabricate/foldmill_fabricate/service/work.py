@@ -47,11 +47,20 @@ PATTERN, UPLOAD, AS_CUT = "pattern.fold", "upload", "as-cut.svg"
 SHEET = TypeAdapter(SheetRecord)
 MOST_TOLD, LONGEST = 1000, 300
 """Figures and findings, and letters of a title: a stranger's file may bring a million of them."""
+_SMALL = {
+    "small.svg": b'<svg width="9mm" height="9mm" viewBox="0 0 9 9"><rect width="9" height="9" '
+    b'stroke="black"/></svg>',
+    "small.dxf": b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n9\n20\n9\n40\n9\n0\nENDSEC\n"
+    b"0\nEOF\n",
+}
+"""A sheet without creases, in each format that is read by packages of others."""
 
 
 def warm() -> None:
-    """Load what every child will need."""
+    """Load what every child will need, which takes longer than reading most files does."""
     installed()
+    for name, content in _SMALL.items():
+        check_fold(read_pattern(content, Options(), name=name).fold)
 
 
 def read(folder: Path, form: str, options: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import random
 import time
-from itertools import islice
 
 from fabricate.half_made import PENS
+from fuzzed_hpgl import WORDS, written
 from hypothesis import given
 from hypothesis import strategies as st
 from soaking import Soak
@@ -21,11 +21,6 @@ from foldmill_fabricate.materials import Material
 SEED = 20261123
 SLOWEST = 20.0
 """s of processor time, on a machine that does other things: a thousand times what is usual."""
-MOVES = ["IN;", "DF;", "SP#;", "PU#,#;", "PD#,#;", "PD#,#,#,#;", "PA#,#;", "PR#,#;", "PU;", "PD;"]
-CURVES = ["CI#;", "CI#,#;", "AA#,#,#;", "AR#,#,#,#;", "IP#,#,#,#;", "SC#,#,#,#;", "SC;"]
-OTHERS = ["SP;", "IP;", "VS#;", "FS#;", "LT;", "LT#;", "LBab\x03", "RO90;", "PE<=;", "OA;"]
-STRAY = ["\x1b.(", "\x00", ",", ";", "#", "-", "."]
-WORDS = MOVES + CURVES + OTHERS + STRAY
 
 
 def sentence(data: bytes) -> Drawing | None:
@@ -59,33 +54,6 @@ def test_any_sequence_of_instructions_is_read_or_refused_in_words(
     text = "".join(words)
     filled = "".join(str(data.draw(numbers)) if each == "#" else each for each in text)
     sentence(filled.encode("latin-1"))
-
-
-def babble(rng: random.Random) -> str:
-    """Return instructions in no order, some of them refused."""
-    pool = MOVES + CURVES if rng.random() < 0.5 else WORDS
-    return "".join(rng.choice(pool) for _ in range(rng.choice([3, 10, 60, 400])))
-
-
-def sound(rng: random.Random) -> str:
-    """Return a drawing as a program writes it."""
-    ways = ["PD#,#;", "PD#,#,#,#;", "PD;PA#,#;", "PD;PR#,#;PA;", "PD;AR#,#,90;", "CI#;", "PD;LT;"]
-    strokes = (f"PU;SP{rng.randint(1, 4)};PU#,#;{rng.choice(ways)}PU;" for _ in range(30))
-    return "".join(islice(strokes, rng.choice([1, 5, 30])))
-
-
-def written(rng: random.Random) -> bytes:
-    """Return a drawing, sound or not, perhaps with some bytes spoiled, now and then a bomb."""
-    text = "IN;SP1;" + (sound if rng.random() < 0.6 else babble)(rng) + "PU;"
-    largest = rng.choice([10, 4000, 4000, 30_000, 10**9])
-    out = [str(rng.randint(-largest, largest)) if each == "#" else each for each in text]
-    data = "".join(out).encode("latin-1")
-    for _ in range(rng.choice([0, 0, 1, 5])):
-        at = rng.randrange(len(data))
-        data = data[:at] + bytes([rng.randrange(256)]) + data[at + rng.randrange(3) :]
-    if rng.random() < 0.01:
-        data *= rng.choice([50, 2_000])
-    return data[: limits.BYTES + 9]
 
 
 def test_seeded_drawings_are_read_or_refused_within_bounds(soak: Soak) -> None:

@@ -78,6 +78,11 @@ MALFORMED: dict[str, tuple[str, bytes, str]] = {
     "a path from nowhere": ("x.svg", path("10 10 L 0 0"), "breaks off at '10 10"),
     "a path to nan": ("x.svg", path("M 0 0 L nan 0"), "breaks off at 'nan 0'"),
     "a path to infinity": ("x.svg", path("M 0 0 L 1e999 0"), "beyond a billion"),
+    "an ellipse whose rim is beyond all numbers": (
+        "x.svg",
+        svg('<ellipse rx="1e308" ry="1e308" cx="1e308" stroke="red"/>'),
+        "within a billion",
+    ),
     "an arc with a flag of 2": ("x.svg", path("M 0 0 A 5 5 0 2 1 9 9"), "breaks off"),
     "an unknown transform": (
         "x.svg",

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from unhurried import of_tests
 
 from foldmill_fabricate.beside import LOWEST
 from foldmill_fabricate.service.sandbox import (
@@ -20,7 +21,6 @@ from foldmill_fabricate.service.sandbox import (
     TooMuch,
 )
 
-TESTS = Path(__file__).parents[2]
 LITTLE = Limits(seconds=0.5, memory_mb=200, file_mb=1)
 LONG = Limits(seconds=60)
 
@@ -28,8 +28,7 @@ LONG = Limits(seconds=60)
 @pytest.fixture(scope="module")
 def sandbox(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sandbox]:
     with pytest.MonkeyPatch.context() as patch:
-        known = os.environ.get("PYTHONPATH", "")
-        patch.setenv("PYTHONPATH", os.pathsep.join([str(TESTS), *filter(None, [known])]))
+        patch.setenv("PYTHONPATH", of_tests())
         box = Sandbox(tmp_path_factory.mktemp("scratch"), ["sandbox_probes"], at_once=2, waiting=3)
         assert box.wait_ready()
         yield box
@@ -41,6 +40,15 @@ def test_arguments_go_in_and_values_come_out_as_they_are(sandbox: Sandbox) -> No
     found = sandbox.run("sandbox_probes:echo", given)
     assert found.pop("here").startswith(str(sandbox.scratch))
     assert found == given
+
+
+def test_what_reads_drawings_is_there_before_the_first_of_them_comes(tmp_path: Path) -> None:
+    needed = ["ezdxf", "scipy.spatial", "shapely", "foldmill_plugins.tuck"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", of_tests())
+        box = Sandbox(tmp_path, ["foldmill_fabricate.service.work", "sandbox_probes"])
+        assert box.run("sandbox_probes:loaded", {"names": needed}, limits=LONG) == needed
+        box.close()
 
 
 def test_nothing_that_one_piece_of_work_leaves_behind_is_seen_by_the_next(sandbox: Sandbox) -> None:

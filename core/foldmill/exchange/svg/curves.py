@@ -52,7 +52,8 @@ def turn(
         step = a + (b - a) * np.arange(1, count + 1) / count
     x, y = rx * np.cos(step), ry * np.sin(step)
     c, s = cos(tilt), sin(tilt)
-    chords: Floats = np.stack([centre[0] + c * x - s * y, centre[1] + s * x + c * y], axis=1)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is no number is refused by its reader
+        chords: Floats = np.stack([centre[0] + c * x - s * y, centre[1] + s * x + c * y], axis=1)
     return chords
 
 
