@@ -24,6 +24,7 @@ from threading import Event, Thread
 from typing import Any
 
 from dbos import DBOS, DBOSConfig
+from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.jobs import patient
 from foldmill_fabricate.plotter.errors import LedgerFailed
@@ -66,6 +67,11 @@ async def _turn(queue: str) -> str:
         job = await DBOS.run_step_async({"name": "take"}, _take, queue)
         if job:
             await DBOS.run_step_async({"name": "make"}, _make, queue, job)
+    except Exception as error:
+        trace = None if isinstance(error, SQLAlchemyError) else error
+        why = (str(error).splitlines() or [type(error).__name__])[0]
+        _LOG.error("a turn of %s failed, another is given: %s", queue, why, exc_info=trace)
+        raise
     finally:
         _under_way.discard(own)
     return job

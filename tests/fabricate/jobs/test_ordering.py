@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import time
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread
 
 import pytest
 
 from foldmill.errors import InvalidInput
 from foldmill_fabricate.errors import CannotPlan
-from foldmill_fabricate.jobs import Order
+from foldmill_fabricate.jobs import Desk, JobState, Order, Submission
+from foldmill_fabricate.jobs.engine import PLANNING
 from foldmill_fabricate.jobs.errors import Leave
+from foldmill_fabricate.jobs.host import Host
 from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.plan_options import PlanOptions, read_options
 from foldmill_fabricate.verify import verify_folder
 
+PATIENCE = 60.0
 STAR = Order(family="rotational", preset="star-n6")
 
 
@@ -55,3 +61,29 @@ def test_planning_ends_with_the_process_that_wants_it(tmp_path: Path) -> None:
     leaving.set()
     with pytest.raises(Leave):
         carry_out_elsewhere(STAR, tmp_path / "job", leaving)
+
+
+def test_an_order_that_is_cancelled_is_planned_no_further(desk: Desk) -> None:
+    host = Host(desk.places, desk.plotters)
+    job = desk.submit(Submission(design=STAR, plotter="bench")).id
+    planning = Thread(target=host._plan, args=(PLANNING, job))
+    planning.start()
+    end = time.monotonic() + PATIENCE
+    while not _planners():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    desk.cancel(job, "Ada")
+    planning.join(PATIENCE)
+    assert not planning.is_alive()
+    assert not _planners()
+    assert desk.job(job).state is JobState.CANCELLED
+    assert desk.history(job)[-1].who == "Ada", "nothing has happened to it since"
+    assert not desk.places.plans.exists(), "nothing came of it"
+    host.store.close()
+    host._lock.release()
+
+
+def _planners() -> list[str]:
+    """Return the processes that plan for this one."""
+    words = ["pgrep", "-P", str(os.getpid()), "-f", "foldmill_fabricate.jobs.ordering"]
+    return subprocess.run(words, capture_output=True, text=True, check=False).stdout.split()
