@@ -36,11 +36,11 @@ def said(shop: Workshop, *words: str, **more: str) -> subprocess.CompletedProces
 
 
 @contextmanager
-def typing(shop: Workshop, *words: str) -> Iterator[subprocess.Popen[str]]:
+def typing(shop: Workshop, *words: str, **more: str) -> Iterator[subprocess.Popen[str]]:
     """Start a command that can be answered; it ends with the context."""
     with subprocess.Popen(
         [*COMMAND, *words],
-        env=environment(shop),
+        env=environment(shop) | more,
         text=True,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
