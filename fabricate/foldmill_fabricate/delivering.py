@@ -32,7 +32,7 @@ from foldmill_fabricate.plotter.ledger import (
     Word,
     account,
 )
-from foldmill_fabricate.plotter.ledger.alone import alone, by_hand, own_ledger
+from foldmill_fabricate.plotter.ledger.alone import alone, alone_on, by_hand, own_ledger
 from foldmill_fabricate.plotter.ledger.guarding import guarded
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.transcript import recorded
@@ -88,22 +88,27 @@ def send_job(
     where somebody else has it, Spoiled where the sheet is given up meanwhile. It ends early after a
     program that is not done.
     """
-    book = ledger or own_ledger(url)
+    book, who = ledger or own_ledger(url), holder or by_hand(f"send {job.path}")
     with (
-        alone(url, holder or by_hand(f"send {job.path}"), book) as device,
+        alone(url, who, book) as device,
         link.open_port(url, job.plan.machine) as opened,
         recorded(opened, link.clock_of(opened), transcript) as port,
     ):
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
-        bench = _Bench(job, operator, book, laid, port, device, test_cut, wish)
-        bench.find_fit()
-        for number, part in enumerate(job.plan.programs):
-            if part.face in faces:
-                sent = bench.make(number, part, partial(tell, part))
-                yield from [sent] if sent else []
-                if sent and sent.state is not State.DONE:
-                    return
-        bench.finish()
+        with alone_on(laid.id, who, book):
+            bench = _Bench(job, operator, book, laid, port, device, test_cut, wish)
+            yield from _made(bench, faces, tell)
+
+
+def _made(bench: _Bench, faces: Sequence[Face], tell: Tell) -> Iterator[Sent]:
+    bench.find_fit()
+    for number, part in enumerate(bench.job.plan.programs):
+        if part.face in faces:
+            sent = bench.make(number, part, partial(tell, part))
+            yield from [sent] if sent else []
+            if sent and sent.state is not State.DONE:
+                return
+    bench.finish()
 
 
 class _Bench:
@@ -187,7 +192,7 @@ class _Work:
 
     @property
     def record(self) -> Record:
-        """What the ledger says of it now."""
+        """How it stands."""
         return self.ledger.record(self.sheet, self.number)
 
     @property
@@ -242,22 +247,19 @@ class _Work:
         request = bench.request(Gate.TOOL, self.part.face, setup)
         asked = not bench.test_cut and not bench.job.plan.material.tested
         wanted = bench.test_cut or (asked and bench.operator.wants_test_cut(request))
-        attempt = 0
         while wanted:
+            attempt = trials.begun(self.ledger.answers(self.sheet), setup)
             program = trials.trial_program(bench.job, self.part.face, setup, attempt)
+            told = {"set-up": setup.name, "attempt": attempt + 1}
+            self.ledger.answer(self.sheet, self.number, trials.BEGUN, told)
             delivery = sender.send(program, bench.port, bench.job.plan.machine, wish=bench.wish)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
-            told = {"set-up": setup.name, "attempt": attempt + 1, "verdict": verdict.value}
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, told)
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, told | {"verdict": verdict.value})
             if verdict is Verdict.STOP:
-                raise CannotSend(
-                    f"The test cut for {setup.name} is not as it should be, and nothing of the "
-                    "part is cut with that setting. Set exposure or force, or change the preset "
-                    "and plan again; then send again."
-                )
-            wanted, attempt = verdict is Verdict.AGAIN, attempt + 1
+                raise CannotSend(trials.BAD.format(setup.name))
+            wanted = verdict is Verdict.AGAIN
 
     def send(self, tell: Callable[[Progress], None]) -> Delivery:
         """Deliver it; however that ends, the ledger knows."""

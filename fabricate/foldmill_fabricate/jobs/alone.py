@@ -9,6 +9,7 @@ from foldmill_fabricate.jobs.errors import JobRefused
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.store import JobStore
 from foldmill_fabricate.plotter.holding import Held, Holder, locked
+from foldmill_fabricate.plotter.ledger.sharing import Keep
 
 _REMEDY = (
     "Stop that one first, leave the work to it, or give this one a name, plotters and a state "
@@ -25,28 +26,41 @@ def alone(places: Places) -> Iterator[None]:
     """
     with ExitStack() as stack:
         for file in places.locks:
-            file.parent.mkdir(parents=True, exist_ok=True)
             try:
+                file.parent.mkdir(parents=True, exist_ok=True)
                 stack.enter_context(locked(file, _HOLDER))
             except Held as error:
                 raise JobRefused(_taken(f"the jobs in {file.parent}", error.by)) from None
+            except OSError as error:
+                raise JobRefused(f"{file} cannot be locked: {error}.") from None
         yield
 
 
 @contextmanager
-def alone_in(store: JobStore, name: str, plotters: Iterable[str]) -> Iterator[None]:
+def alone_in(store: JobStore, name: str, plotters: Iterable[str]) -> Iterator[Keep]:
     """Hold a computer's name and its plotters' in a database that others reach; raises JobRefused.
 
-    Two of one name would take each other's turns, and two with one plotter each other's jobs.
+    Two of one name would take each other's turns, and two with one plotter each other's jobs. Gives
+    what holds them again after the server was started anew; that raises JobRefused, too.
     """
     whole = {f"computer {name}": f"jobs as {name!r} with this database"}
     whole |= {plotter_name(one): f"the jobs of plotter {one!r}" for one in plotters}
-    with ExitStack() as stack:
+
+    @contextmanager
+    def telling() -> Iterator[None]:
         try:
-            stack.enter_context(store.ledger.reserved([*whole], _HOLDER))
+            yield
         except Held as error:
             raise JobRefused(_taken(whole[error.name], error.by)) from None
-        yield
+
+    def kept() -> None:
+        with telling():
+            keep()
+
+    with ExitStack() as stack:
+        with telling():
+            keep = stack.enter_context(store.ledger.reserved([*whole], _HOLDER))
+        yield kept
 
 
 def plotter_name(plotter: str) -> str:

@@ -59,7 +59,7 @@ class Host:
             held.enter_context(alone(places))
             self.store = JobStore(places.ledger)
             held.callback(self.store.close)
-            held.enter_context(alone_in(self.store, name, plotters))
+            self._keep = held.enter_context(alone_in(self.store, name, plotters))
             self.plans = Plans(places.plans, places.keep_days)
             self._leaving = Event()
             self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
@@ -90,6 +90,7 @@ class Host:
         return {PLANNING: (self._take_order, self._plan), **made}
 
     def _due(self) -> dict[str, int]:
+        self._keep()
         for name in self.store.abandoned(self.plotters):
             if not self.store.ledger.is_reserved(plotter_name(self.store.job(name).plotter)):
                 self.store.end_abandoned(name)

@@ -65,7 +65,7 @@ def held(url: str, holder: Holder = SOMEBODY) -> Iterator[str]:
         return
     with ExitStack() as stack:
         try:
-            stack.enter_context(locked(_file(device), holder, mode=0o666))
+            stack.enter_context(locked(lock_file(device), holder, mode=0o666))
         except Held as error:
             raise PortUnavailable(at_work(url, error.by)) from None
         except OSError as error:
@@ -83,7 +83,7 @@ def at_work(url: str, by: Holder | None) -> str:
     return f"Another foldmill is at work on {url}: {by}. Nothing was sent. {by.remedy}"
 
 
-def _file(device: str) -> Path:
-    """Return the lock's file: the same for all users of this computer."""
-    digest = hashlib.sha256(device.encode()).hexdigest()[:16]
+def lock_file(name: str) -> Path:
+    """Return the lock's file of what has a name: the same for all users of this computer."""
+    digest = hashlib.sha256(name.encode()).hexdigest()[:16]
     return Path(tempfile.gettempdir()) / f"foldmill-{digest}.lock"

@@ -9,10 +9,15 @@ from pathlib import Path
 
 import pytest
 from fabricate.jobs.terminal import plain, said, typing
-from fabricate.jobs.workshop import PATIENCE, Workshop, workshop
+from fabricate.jobs.workshop import PATIENCE, Workshop, machine, workshop
 
 from foldmill_fabricate.jobs import JobState, Kind
 from foldmill_fabricate.jobs.store import JobStore
+from foldmill_fabricate.passes import Face
+from foldmill_fabricate.plotter.clock import RealClock
+from foldmill_fabricate.plotter.ledger import State
+from foldmill_fabricate.plotter.simulator.machine import Simulator
+from foldmill_fabricate.plotter.simulator.servers import serve_tcp
 
 MACHINE = "generic-hpgl-600"
 
@@ -71,6 +76,25 @@ def test_a_job_that_is_due_while_somebody_sends_waits_for_a_word_and_is_made_the
         assert shop.at.job(shop.job).state is JobState.DONE, shop.log()
         assert shop.difference() == (Counter(), Counter())
         shop.end()
+
+
+def test_a_sheet_that_is_being_made_is_not_taken_to_another_port(tmp_path: Path) -> None:
+    """A live run must not be found without an end, and be taken for dead, by a wrong address."""
+    with workshop(tmp_path, speed_up=0.1) as shop:
+        shop.start()
+        shop.attend(lambda: shop.simulator.sheet.under_way)
+        ledger, sheet = shop.at.store.ledger, shop.at.job(shop.job).sheets[-1]
+        elsewhere = Simulator(machine(blind=False), clock=RealClock())
+        with serve_tcp(elsewhere) as port:
+            words = ("send", str(shop.folder), "--port", port, "--sheet", sheet)
+            told = said(shop, *words)
+        assert told.returncode == 2
+        text = plain(told.stderr)
+        assert f"Sheet {sheet} is worked on already: job {shop.job} (process" in text
+        states = {one.state for one in ledger.sheet(sheet).records}
+        assert states <= {State.RUNNING, State.READY, State.DONE}, "the job goes on undisturbed"
+        assert not elsewhere.sheet.seen(Face.FRONT)
+        shop.kill()
 
 
 def test_of_those_who_would_work_on_the_same_jobs_only_the_first_does(tmp_path: Path) -> None:

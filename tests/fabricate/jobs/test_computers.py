@@ -17,7 +17,7 @@ import pytest
 from fabricate.jobs import postgres
 from fabricate.jobs.terminal import plain, said, typing
 from fabricate.jobs.workshop import PATIENCE, workshop
-from sqlalchemy import create_engine
+from sqlalchemy import create_engine, text
 
 from foldmill_fabricate.jobs import JobState
 from foldmill_fabricate.plotter.errors import PortUnavailable, Spoiled
@@ -33,14 +33,14 @@ _NUMBERS = count()
 
 
 @pytest.fixture(scope="module")
-def server() -> Iterator[str]:
+def server() -> Iterator[postgres.Server]:
     assert PROGRAMS is not None
     with postgres.server(PROGRAMS) as url:
         yield url
 
 
 @pytest.fixture
-def database(server: str) -> str:
+def database(server: postgres.Server) -> str:
     return postgres.new_database(server, f"computers{next(_NUMBERS)}")
 
 
@@ -70,6 +70,32 @@ def test_a_name_is_held_until_its_process_ends_whatever_ends_it(database: str) -
         assert ledger.is_reserved("plotter bench")
     assert not ledger.is_reserved("plotter bench")
     ledger.close()
+
+
+def test_names_are_held_again_after_the_server_let_go_of_them_or_another_has_them(
+    database: str,
+) -> None:
+    """Its administrator ends the connection, as a restart of the server would."""
+    here, there = Ledger(database), Ledger(database)
+    server = create_engine(database, isolation_level="AUTOCOMMIT")
+    ends = text("SELECT pg_terminate_backend(pid) FROM pg_locks WHERE locktype = 'advisory'")
+    with here.reserved(["plotter bench"], JOB) as keep, server.connect() as at:
+        keep()
+        at.execute(ends)
+        keep()
+        assert there.is_reserved("plotter bench")
+        at.execute(ends)
+        with there.reserved(["plotter bench"], Holder("another", "")):
+            with pytest.raises(Held) as told:
+                keep()
+            assert told.value.by is not None
+            assert told.value.by.what == "another"
+        keep()
+        assert there.is_reserved("plotter bench")
+    assert not there.is_reserved("plotter bench")
+    server.dispose()
+    here.close()
+    there.close()
 
 
 def test_a_machine_on_the_network_has_one_hand_among_all_computers(

@@ -78,13 +78,25 @@ class Ledger:
         """Let go of the database."""
         self._engine.dispose()
 
-    def reserved(self, names: Sequence[str], holder: Holder) -> AbstractContextManager[None]:
-        """Hold names among all computers of this database while a context lasts; raises Held."""
+    def reserved(
+        self, names: Sequence[str], holder: Holder
+    ) -> AbstractContextManager[sharing.Keep]:
+        """Hold names among all computers of this database while a context lasts; raises Held.
+
+        What it gives is called now and then by whoever holds them long.
+        """
         return sharing.reserved(self._engine, names, holder)
 
     def is_reserved(self, name: str) -> bool:
         """Tell whether some computer holds a name."""
         return sharing.is_reserved(self._engine, name)
+
+    @property
+    def file(self) -> Path | None:
+        """The file it is in; None where it is in memory, or on a server."""
+        url = self._engine.url
+        is_file = url.get_backend_name() == "sqlite" and url.database
+        return Path(str(url.database)).resolve() if is_file else None
 
     @property
     def is_shared(self) -> bool:
@@ -172,7 +184,7 @@ class Ledger:
     def claim(self, sheet: str, number: int, device: str) -> Run:
         """Take a ready program's token.
 
-        Whoever calls holds the device's lock. Raises LedgerRefused, with the sentence, where the
+        Whoever calls holds device and sheet. Raises LedgerRefused, with the sentence, where the
         program is not ready; one that another run left without an end is interrupted from then on.
         """
         with self._engine.begin() as at:
@@ -189,7 +201,7 @@ class Ledger:
     def recover(self, sheet: str, number: int) -> Record:
         """Return a program; a run of it that nobody ended is interrupted from now on.
 
-        Whoever calls holds the device's lock, so that such a run is dead.
+        Whoever calls holds the sheet (``alone_on``), so that such a run is dead.
         """
         with self._engine.begin() as at:
             row = program_row(at, sheet, number)
