@@ -21,6 +21,7 @@ from foldmill_fabricate.operators import Operator, Verdict
 from foldmill_fabricate.passes import Face, Gate, ProgramFile, SetUp
 from foldmill_fabricate.plotter import link, sender
 from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.holding import Holder
 from foldmill_fabricate.plotter.ledger import (
     Ledger,
     Record,
@@ -30,10 +31,9 @@ from foldmill_fabricate.plotter.ledger import (
     State,
     Word,
     account,
-    ledger_file,
 )
+from foldmill_fabricate.plotter.ledger.alone import alone, alone_on, by_hand, own_ledger
 from foldmill_fabricate.plotter.ledger.guarding import guarded
-from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.transcript import recorded
 from foldmill_fabricate.plotter.wish import Wish
@@ -63,14 +63,6 @@ class Sent:
     """What the ledger says of it now."""
 
 
-def own_ledger(url: str) -> Ledger:
-    """Return the ledger that a device's sheets are in.
-
-    A simulator in this process ends with it, and so do its sheets: they are kept in memory.
-    """
-    return Ledger("sqlite://" if url.startswith("sim://") else ledger_file())
-
-
 def send_job(
     job: Job,
     url: str,
@@ -82,6 +74,7 @@ def send_job(
     test_cut: bool = False,
     transcript: Path | None = None,
     wish: Wish | None = None,
+    holder: Holder | None = None,
 ) -> Iterator[Sent]:
     """Send the programs of these faces in order of work, yielding after each.
 
@@ -89,26 +82,33 @@ def send_job(
     ledger : by default the user's own. sheet : the id of a sheet that is begun, or NEW; by default
     the one that waits for these faces, else a new one. test_cut : cut one in the waste for each
     process without asking, whether the preset is tested or not. transcript : a file for what
-    goes over the wire. wish : by which another thread pauses or stops it. Raises CannotSend
-    where the operator says no or answers what cannot be, LedgerRefused where the sheet is in
-    doubt, PlotterError where the line fails. It ends early after a program that is not done.
+    goes over the wire. wish : by which another thread pauses or stops it. holder : who is at work,
+    as others are told. Raises CannotSend where the operator says no or answers what cannot be,
+    LedgerRefused where the sheet is in doubt, PlotterError where the line fails, PortUnavailable
+    where somebody else has it, Spoiled where the sheet is given up meanwhile. It ends early after a
+    program that is not done.
     """
-    book = ledger or own_ledger(url)
+    book, who = ledger or own_ledger(url), holder or by_hand(f"send {job.path}")
     with (
-        held(url) as device,
+        alone(url, who, book) as device,
         link.open_port(url, job.plan.machine) as opened,
         recorded(opened, link.clock_of(opened), transcript) as port,
     ):
         laid = choose_sheet(book, job, faces, sheet)  # before anybody loads a sheet
-        bench = _Bench(job, operator, book, laid, port, device, test_cut, wish)
-        bench.find_fit()
-        for number, part in enumerate(job.plan.programs):
-            if part.face in faces:
-                sent = bench.make(number, part, partial(tell, part))
-                yield from [sent] if sent else []
-                if sent and sent.state is not State.DONE:
-                    return
-        bench.finish()
+        with alone_on(laid.id, who, book):
+            bench = _Bench(job, operator, book, laid, port, device, test_cut, wish)
+            yield from _made(bench, faces, tell)
+
+
+def _made(bench: _Bench, faces: Sequence[Face], tell: Tell) -> Iterator[Sent]:
+    bench.find_fit()
+    for number, part in enumerate(bench.job.plan.programs):
+        if part.face in faces:
+            sent = bench.make(number, part, partial(tell, part))
+            yield from [sent] if sent else []
+            if sent and sent.state is not State.DONE:
+                return
+    bench.finish()
 
 
 class _Bench:
@@ -192,7 +192,7 @@ class _Work:
 
     @property
     def record(self) -> Record:
-        """What the ledger says of it now."""
+        """How it stands."""
         return self.ledger.record(self.sheet, self.number)
 
     @property
@@ -247,22 +247,19 @@ class _Work:
         request = bench.request(Gate.TOOL, self.part.face, setup)
         asked = not bench.test_cut and not bench.job.plan.material.tested
         wanted = bench.test_cut or (asked and bench.operator.wants_test_cut(request))
-        attempt = 0
         while wanted:
+            attempt = trials.begun(self.ledger.answers(self.sheet), setup)
             program = trials.trial_program(bench.job, self.part.face, setup, attempt)
+            told = {"set-up": setup.name, "attempt": attempt + 1}
+            self.ledger.answer(self.sheet, self.number, trials.BEGUN, told)
             delivery = sender.send(program, bench.port, bench.job.plan.machine, wish=bench.wish)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
-            told = {"set-up": setup.name, "attempt": attempt + 1, "verdict": verdict.value}
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, told)
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, told | {"verdict": verdict.value})
             if verdict is Verdict.STOP:
-                raise CannotSend(
-                    f"The test cut for {setup.name} is not as it should be, and nothing of the "
-                    "part is cut with that setting. Set exposure or force, or change the preset "
-                    "and plan again; then send again."
-                )
-            wanted, attempt = verdict is Verdict.AGAIN, attempt + 1
+                raise CannotSend(trials.BAD.format(setup.name))
+            wanted = verdict is Verdict.AGAIN
 
     def send(self, tell: Callable[[Progress], None]) -> Delivery:
         """Deliver it; however that ends, the ledger knows."""
@@ -284,11 +281,7 @@ class _Work:
         except Fenced:
             raise
         except BaseException as error:
-            said = str(error) or type(error).__name__
-            try:
-                self.run.end(State.INTERRUPTED, said)
-            except Fenced as lost:
-                raise type(lost)(f"{lost} {said}") from error
+            self.run.cut_off(str(error) or type(error).__name__)
             raise
 
     def end(self, delivery: Delivery) -> State:

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.passes import Face, Plan, ProgramFile, SetUp
 from foldmill_fabricate.plan.trial import trial
+from foldmill_fabricate.plotter.ledger import Answered
 from foldmill_fabricate.sending import Job
 from foldmill_fabricate.verify.trial import prove_trial
+
+BEGUN = "test-cut-begun"
+"""What the ledger calls a test cut of which a byte may have left."""
+
+BAD = (
+    "The test cut for {} is not as it should be, and nothing of the part is cut with that setting. "
+    "Set exposure or force, or change the preset and plan again; then send again."
+)
 
 
 def are_offered(plan: Plan) -> bool:
@@ -26,6 +36,14 @@ def first_of_its_process(plan: Plan, setup: SetUp) -> bool:
     """Tell whether no set-up before this one goes the same way about it."""
     every = [one for work in plan.passes for one in work.setups]
     return next(one for one in every if one.process == setup.process).number == setup.number
+
+
+def begun(answers: Iterable[Answered], setup: SetUp) -> int:
+    """Return how many test cuts for a set-up may be in the waste of a sheet; each has its place.
+
+    What was begun before a crash counts: cut again, it would be deeper than the part becomes.
+    """
+    return sum(one.gate == BEGUN and one.told["set-up"] == setup.name for one in answers)
 
 
 def trial_program(job: Job, face: Face, setup: SetUp, attempt: int = 0) -> bytes:

@@ -170,6 +170,28 @@ def test_an_untested_preset_is_tried_in_the_waste_before_the_part(
     assert [each["verdict"] for each in tried_before] == ["again", "good"]
 
 
+def test_a_test_cut_that_was_cut_off_is_never_gone_over_again(
+    job: Job, bench: Bench, ledger: Ledger
+) -> None:
+    """Cut twice it would be deeper than the part becomes, and be found good for that."""
+
+    begun: list[str] = []
+
+    def gone(request: Request) -> Verdict:
+        begun.append(request.sheet)
+        raise KeyboardInterrupt
+
+    bench.hands.verdicts = [Verdict.GOOD]
+    whole, bench.hands.judge = bench.hands.judge, gone  # type: ignore[method-assign]
+    with pytest.raises(KeyboardInterrupt):
+        list(send_job(job, bench.url, bench.hands, FRONT, ledger=ledger))
+    bench.hands.judge = whole  # type: ignore[method-assign]
+    list(send_job(job, bench.url, bench.hands, FRONT, ledger=ledger, sheet=begun[0]))
+    first, *_ = bench.simulator.sheets[-2].strokes[Face.FRONT]
+    second, *_ = bench.simulator.sheet.strokes[Face.FRONT]
+    assert not set(first.points) & set(second.points)
+
+
 def test_a_test_cut_that_is_no_good_stops_before_the_part_is_cut(
     job: Job, bench: Bench, ledger: Ledger
 ) -> None:

@@ -50,7 +50,7 @@ def frame(
     job = open_job(path, read_marks(marks))
     fit = job.fit.fit if job.fit else None
     corners = jogging.box(job.plan, fit, [Face(only.value)])
-    with _led(port, job.plan.machine) as jogger:
+    with _led(port, job.plan.machine, "frame") as jogger:
         jogging.frame(jogger, corners)
     (x, y), (u, v) = corners[0], corners[2]
     text = f"Traced ({x:.2f}, {y:.2f}) to ({u:.2f}, {v:.2f}) mm on the mat, the tool up."
@@ -67,7 +67,7 @@ def jog(
     """Move the tool by some mm, up, within the machine's limits."""
     from foldmill_fabricate import shelf
 
-    with _led(port, shelf.machine(machine)) as jogger:
+    with _led(port, shelf.machine(machine), "jog") as jogger:
         jogger.by(dx, dy)
         x, y = jogger.at or (0.0, 0.0)
     say(as_json, {"at": [x, y]}, f"The tool is at ({x:.2f}, {y:.2f}) mm on the mat, up.")
@@ -93,7 +93,7 @@ def register(
     ledger = own_ledger(port)
     found: list[tuple[float, float]] = []
     laid = _sheet(ledger.open_sheets(job.id), sheet, job)
-    with _led(port, job.plan.machine) as jogger:
+    with _led(port, job.plan.machine, "register") as jogger:
         for number, spot in enumerate(wanted, 1):
             jogger.go(spot)
             if _over(jogger, number, len(wanted)) and jogger.at:
@@ -150,11 +150,16 @@ def read_step(text: str) -> tuple[float, float]:
 
 
 @contextmanager
-def _led(port: str, machine: Machine) -> Iterator[Jogger]:
+def _led(port: str, machine: Machine, command: str) -> Iterator[Jogger]:
     """Hold a machine's lock, open its port and lead it about; a signal stops it."""
+    from foldmill_fabricate.delivering import own_ledger
     from foldmill_fabricate.jogging import Jogger
     from foldmill_fabricate.plotter import link
-    from foldmill_fabricate.plotter.lock import held
+    from foldmill_fabricate.plotter.ledger.alone import alone, by_hand
 
-    with stopping_on_signals(), held(port), link.open_port(port, machine) as opened:
+    with (
+        stopping_on_signals(),
+        alone(port, by_hand(command), own_ledger(port)),
+        link.open_port(port, machine) as opened,
+    ):
         yield Jogger(opened, machine)

@@ -55,7 +55,7 @@ def sheets(
     """
     from foldmill import FoldmillError
     from foldmill_fabricate.cli import remaking
-    from foldmill_fabricate.plotter.ledger import Ledger, ledger_file
+    from foldmill_fabricate.plotter.ledger import Ledger, ledger_place
 
     if (spoiled or remake or output) and not name:
         raise FoldmillError("--spoiled, --remake and --output are about one sheet: name its id.")
@@ -63,10 +63,11 @@ def sheets(
         raise FoldmillError("--remake writes a job folder: name it with --output.")
     if (doubtful or half) and not remake:
         raise FoldmillError("--doubtful and --half say what --remake plans; give that, too.")
-    if not name and not ledger_file().exists():
+    place = ledger_place()
+    if not name and isinstance(place, Path) and not place.exists():
         say(as_json, [], "No sheet is under work.")
         return
-    ledger = Ledger(ledger_file())
+    ledger = Ledger(place)
     if not name:
         found = ledger.open_sheets()
         say(as_json, [_row(one) for one in found], _list(found))

@@ -56,17 +56,9 @@ def _service(places: Places) -> Jobs | None:
 
 def is_worked_on(places: Places) -> bool:
     """Tell whether some process holds the host's lock."""
-    from filelock import FileLock, Timeout
+    from foldmill_fabricate.plotter.holding import is_held
 
-    if not places.lock.exists():
-        return False
-    lock = FileLock(places.lock, timeout=0)
-    try:
-        lock.acquire()
-    except Timeout:
-        return True
-    lock.release()
-    return False
+    return is_held(places.lock)
 
 
 def work_here(more: Sequence[str], host_name: str, tell: Callable[[str], None]) -> None:

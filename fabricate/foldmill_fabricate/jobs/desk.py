@@ -180,8 +180,9 @@ class Desk:
     def remake(self, name: str, said: Rest, who: str = "") -> JobRecord:
         """Plan what is missing on a sheet of an ended job, and submit that for the same plotter.
 
-        The same sheet again gives the job that is there. Raises JobRefused for a job that has not
-        ended or a sheet that is not its own, CannotPlan for what cannot be made.
+        The same sheet again gives the job that is there, unless that ended before it was begun.
+        Raises JobRefused for a job that has not ended or a sheet that is not its own, CannotPlan
+        for what cannot be made.
         """
         job = self.store.job(name)
         sheet = said.sheet.upper() or (job.sheets[-1] if job.sheets else "")
@@ -202,9 +203,18 @@ class Desk:
             remakes=sheet,
             plotter=job.plotter,
             priority=said.priority,
-            key=f"the rest of {sheet}",
+            key=self._key_of_rest(sheet),
         )
         return self.submit(asked, who)
+
+    def _key_of_rest(self, sheet: str) -> str:
+        """Return the key of the one job that makes the rest of a sheet.
+
+        A job of it that ended before it was begun has made nothing, and does not stand for it.
+        """
+        every = [one for one in self.store.jobs(limit=100_000) if one.remakes == sheet]
+        idle = sum(one.is_ended and not one.sheets for one in every)
+        return f"the rest of {sheet}, {1 + idle}" if idle else f"the rest of {sheet}"
 
     def _give_up(self, sheet: str, who: str) -> None:
         """Give up a sheet that its ended job has left between two programs."""

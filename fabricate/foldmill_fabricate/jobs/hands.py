@@ -142,10 +142,10 @@ class Hands:
             raise Spoiled(f"Sheet {self.sheet} was given up.")
 
     def heed(self) -> None:
-        """Raise Cancelled or Leave where the job, or the process, is to end."""
+        """Raise Cancelled or Leave where job or process are to end, Fenced where it is lost."""
         if self._leaving.is_set():
             raise Leave("The service ends.")
-        if self._store.wish(self._job) == CANCEL:
+        if self._store.wish(self._job, self._token) == CANCEL:
             raise Cancelled("Cancelled.")
 
 

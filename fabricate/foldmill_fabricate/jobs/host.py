@@ -5,15 +5,15 @@ from __future__ import annotations
 import logging
 import tempfile
 from collections.abc import Mapping
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from threading import Event
 
-from filelock import FileLock, Timeout
 from pydantic import ValidationError
 
 from foldmill.errors import FoldmillError
 from foldmill.refusals import explain
+from foldmill_fabricate.jobs.alone import alone, alone_in, plotter_name
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
 from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
 from foldmill_fabricate.jobs.hands import LOOK
@@ -55,17 +55,17 @@ class Host:
                 "the same: give --host-name."
             )
         self.places, self.plotters = places, plotters
-        self._lock = _locked(places)
-        try:
+        with ExitStack() as held:
+            held.enter_context(alone(places))
             self.store = JobStore(places.ledger)
+            held.callback(self.store.close)
+            self._keep = held.enter_context(alone_in(self.store, name, plotters))
             self.plans = Plans(places.plans, places.keep_days)
             self._leaving = Event()
             self._shop = Shop(self.store, self.plans, places, self._leaving, tell or Tell())
             self._tokens: dict[str, int] = {}
             self._engine = Engine(places.engine, name or _HERE, self._queues(), self._due)
-        except BaseException:
-            self._lock.release()
-            raise
+            self._held = held.pop_all()
 
     def start(self) -> None:
         """Take up what a crash has left, and begin to work."""
@@ -78,9 +78,10 @@ class Host:
     def stop(self) -> None:
         """Stop the machines, leave what is under way to be taken up again, and let go of all."""
         self._leaving.set()
-        self._engine.stop()
-        self.store.close()
-        self._lock.release()
+        try:
+            self._engine.stop()
+        finally:
+            self._held.close()
 
     def _queues(self) -> dict[str, tuple[Take, Make]]:
         made: dict[str, tuple[Take, Make]] = {
@@ -89,8 +90,10 @@ class Host:
         return {PLANNING: (self._take_order, self._plan), **made}
 
     def _due(self) -> dict[str, int]:
+        self._keep()
         for name in self.store.abandoned(self.plotters):
-            self.store.end_abandoned(name)
+            if not self.store.ledger.is_reserved(plotter_name(self.store.job(name).plotter)):
+                self.store.end_abandoned(name)
         due = {f"plotter-{name}": count for name, count in self.store.due().items()}
         return due | {PLANNING: len(self.store.jobs([JobState.PLANNING]))}
 
@@ -174,16 +177,3 @@ class Host:
         with suppress(LedgerFailed):  # planning goes on while nobody can say otherwise
             if self.store.job(name).state is not JobState.PLANNING:
                 raise Cancelled("Ended by a person.")
-
-
-def _locked(places: Places) -> FileLock:
-    places.root.mkdir(parents=True, exist_ok=True)
-    lock = FileLock(places.lock, timeout=0)
-    try:
-        lock.acquire()
-    except Timeout:
-        raise JobRefused(
-            f"Another foldmill works on the jobs in {places.root} already: `foldmill serve` or "
-            "`foldmill job work`. Stop that one first, or leave the work to it."
-        ) from None
-    return lock

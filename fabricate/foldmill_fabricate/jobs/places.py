@@ -6,11 +6,11 @@ import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from foldmill_fabricate.jobs.keeping import KEEP_DAYS
-from foldmill_fabricate.plotter.ledger.ledger import state_folder
+from sqlalchemy.engine import make_url
 
-DATABASE = "FOLDMILL_DATABASE"
-"""Variable of the environment: an SQLAlchemy URL in place of files under the folder."""
+from foldmill_fabricate.jobs.keeping import KEEP_DAYS
+from foldmill_fabricate.plotter.ledger.places import DATABASE as DATABASE
+from foldmill_fabricate.plotter.ledger.places import state_folder
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,15 @@ class Places:
     def lock(self) -> Path:
         """Held by the one process that launches the engine."""
         return self.root / "host.lock"
+
+    @property
+    def locks(self) -> list[Path]:
+        """Files whose locks that process holds: its folder's, and its database's where one is."""
+        url = make_url(self.database) if self.database else None
+        if url is None or url.get_backend_name() != "sqlite" or not url.database:
+            return [self.lock]
+        file = Path(url.database).absolute()
+        return [self.lock, file.with_name(f"{file.name}.host.lock")]
 
     @property
     def service(self) -> Path:

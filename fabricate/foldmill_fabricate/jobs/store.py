@@ -265,10 +265,16 @@ class JobStore:
             row = rows.job_row(at, name)
             self._note(at, row.id, what, JobState(row.state), rows.WORKER)
 
-    def wish(self, name: str) -> str:
-        """Return what a person wants of a job: pause, cancel, or nothing."""
+    def wish(self, name: str, token: int) -> str:
+        """Return what a person wants of a job: pause, cancel, or nothing.
+
+        Raises Fenced for a hand that lost the job.
+        """
         with reading(self._engine) as at:
-            return str(at.execute(select(JOBS.c.wish).where(JOBS.c.id == name)).scalar_one())
+            row = at.execute(select(JOBS.c.wish, JOBS.c.token).where(JOBS.c.id == name)).one()
+        if row.token != token:
+            raise Fenced(f"Job {name} was taken over by another process; this one stops.")
+        return str(row.wish)
 
     def abandoned(self, plotters: Collection[str]) -> list[str]:
         """Return the jobs a person wants to end, begun on a plotter that is none of these."""

@@ -25,6 +25,7 @@ from foldmill_fabricate.jobs.store import CANCEL, PAUSE, JobStore
 from foldmill_fabricate.jobs.values import JobRecord, Kind
 from foldmill_fabricate.passes import Face, Gate, ProgramFile
 from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, PlotterError, Spoiled
+from foldmill_fabricate.plotter.holding import Holder
 from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.plotter.sender import Progress
 from foldmill_fabricate.plotter.wish import Wish
@@ -32,6 +33,7 @@ from foldmill_fabricate.sending import Job, open_job
 
 _LOG = logging.getLogger(__name__)
 _FACES = tuple(Face)
+_END = "Wait until it is done, or end it: foldmill job cancel {}."
 
 
 class Tell:
@@ -96,8 +98,11 @@ class watching:  # noqa: N801
                 self._wish.stop()
                 return
             try:
-                self._hear(self._shop.store.wish(self._job))
-            except (JobRefused, Fenced, LedgerFailed):
+                self._hear(self._shop.store.wish(self._job, self._token))
+            except Fenced:
+                self._wish.stop()  # who has the job now must not find its machine at work
+                return
+            except (JobRefused, LedgerFailed):
                 pass  # the work itself meets it, and says so
             except Exception:  # a database that is away for a moment must not end the watch
                 _LOG.exception("wishes of job %s", self._job)
@@ -189,6 +194,7 @@ class _Work:
             sheet,
             transcript=transcript,
             wish=self.wish,
+            holder=Holder(f"job {self.job.id}", _END.format(self.job.id)),
         )
         try:
             for sent in parts:

@@ -7,18 +7,18 @@ import os
 import socket
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from ipaddress import ip_address
 from pathlib import Path
 
-from filelock import FileLock, Timeout
-
 from foldmill_fabricate.plotter.errors import PortUnavailable
+from foldmill_fabricate.plotter.holding import Held, Holder, locked
 
 _WRAPPED = frozenset({"spy", "alt"})
 """Addresses of pyserial's that hold another."""
 _SERVED = frozenset({"socket", "rfc2217"})
 """Ways to speak to a server's port; the machine behind it is one."""
+SOMEBODY = Holder("foldmill", "Wait until it is done, or stop it.")
 
 
 def device_of(url: str) -> str:
@@ -52,34 +52,38 @@ def _address(host: str) -> str:
 
 
 @contextmanager
-def held(url: str) -> Iterator[str]:
-    """Hold the lock of a device and give its name.
+def held(url: str, holder: Holder = SOMEBODY) -> Iterator[str]:
+    """Hold the lock of a device and give its name; holder : what others are told meanwhile.
 
     Simulators in this process need none: no other process reaches them. Raises PortUnavailable
-    where another process of this computer holds it. The lock ends with the process, whatever ends
-    it.
+    where another process of this computer holds it, with its name. The lock ends with the process,
+    whatever ends it.
     """
     device = device_of(url)
     if device.startswith("sim://"):
         yield device
         return
-    lock = FileLock(_file(device), timeout=0)
-    try:
-        lock.acquire()
-    except Timeout:
-        raise PortUnavailable(
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(locked(lock_file(device), holder, mode=0o666))
+        except Held as error:
+            raise PortUnavailable(at_work(url, error.by)) from None
+        except OSError as error:
+            raise PortUnavailable(f"{url} cannot be locked: {error}.") from None
+        yield device
+
+
+def at_work(url: str, by: Holder | None) -> str:
+    """Say that somebody else is at work on a port, and what to do about that."""
+    if by is None:
+        return (
             f"Another foldmill on this computer is at work on {url}. Wait until it is done, or "
             "stop it."
-        ) from None
-    except OSError as error:
-        raise PortUnavailable(f"{url} cannot be locked: {error}.") from None
-    try:
-        yield device
-    finally:
-        lock.release()
+        )
+    return f"Another foldmill is at work on {url}: {by}. Nothing was sent. {by.remedy}"
 
 
-def _file(device: str) -> Path:
-    """Return the lock's file: the same for all users of this computer."""
-    digest = hashlib.sha256(device.encode()).hexdigest()[:16]
+def lock_file(name: str) -> Path:
+    """Return the lock's file of what has a name: the same for all users of this computer."""
+    digest = hashlib.sha256(name.encode()).hexdigest()[:16]
     return Path(tempfile.gettempdir()) / f"foldmill-{digest}.lock"

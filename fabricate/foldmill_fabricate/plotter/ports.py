@@ -17,9 +17,11 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter import link
 from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.handshakes.grbl import GrblSession
+from foldmill_fabricate.plotter.holding import Holder
 from foldmill_fabricate.plotter.lock import held
 from foldmill_fabricate.plotter.session import SILENCE, Session
 
+_ASKING = Holder("foldmill plotters --ask", "It ends within seconds.")
 _QUESTIONS = {"hpgl": b"OI;", "gcode": b"?", "gp-gl": b"FG\x03"}
 
 
@@ -49,7 +51,7 @@ def asked(address: str, machine: Machine, title: str = "") -> Port:
     that meets a machine at work harms its program. Locked, busy and forbidden ports are explained.
     """
     try:
-        with held(address), link.open_port(address, machine) as port:
+        with held(address, _ASKING), link.open_port(address, machine) as port:
             said = _said(port, machine)
     except (PlotterError, OSError) as error:
         return Port(address, title, str(error))

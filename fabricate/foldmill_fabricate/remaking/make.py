@@ -54,7 +54,8 @@ def _refuse_state(sheet: SheetRecord) -> None:
     if State.RUNNING in states:
         raise CannotPlan(
             f"Sheet {sheet.id} is being made, or what made it was killed. Wait for its end; after "
-            "a kill, send it once more, which tells how it stands and cuts nothing unasked."
+            "a kill, send it once more, which tells how it stands and cuts nothing unasked; or "
+            f"give it up with foldmill sheets {sheet.id} --spoiled."
         )
     if states == {State.DONE}:
         raise CannotPlan(f"Nothing is missing on sheet {sheet.id}: all of it is done.")

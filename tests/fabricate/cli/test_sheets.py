@@ -11,7 +11,8 @@ from fabricate.bench import Bench, small_plan
 from fabricate.half_made import PENS, job_of, left_half_made
 
 from foldmill_fabricate.delivering import send_job
-from foldmill_fabricate.plotter.ledger import Ledger, ledger_file
+from foldmill_fabricate.jobs import JobStore, Places
+from foldmill_fabricate.plotter.ledger import Ledger, ledger_file, ledger_place
 from foldmill_fabricate.sending import open_job
 
 
@@ -93,3 +94,49 @@ def test_what_makes_no_sense_is_refused(
     found = foldmill("sheets", *words)
     assert found.code == 2
     assert told in " ".join(found.err.split())
+
+
+def test_sheets_are_in_the_database_that_jobs_are_in(
+    half: tuple[str, Bench], foldmill: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, bench = half
+    assert name in foldmill("sheets").out
+    monkeypatch.setenv("FOLDMILL_DATABASE", f"sqlite:///{tmp_path / 'other.sqlite'}")
+    assert "No sheet is under work" in foldmill("sheets").out
+    assert foldmill("sheets", name).code == 2
+    ledger = JobStore(Places().ledger).ledger
+    other = left_half_made(job_of(tmp_path / "other", small_plan(PENS)), bench, ledger, 1, 12)
+    ledger.close()
+    assert other.id in foldmill("sheets").out
+    assert foldmill("sheets", other.id, "--spoiled").code == 0
+    ledger = Ledger(ledger_place())
+    assert ledger.sheet(other.id).is_given_up
+    ledger.close()
+    bench.leave()
+
+
+@pytest.mark.parametrize(
+    ("database", "why"),
+    [
+        ("postgresql+psycopg://ada:secret@127.0.0.1:1/none", "refused"),
+        ("sqlite:////nowhere/at/all.sqlite", "unable to open"),
+        ("nonsense", "cannot be opened"),
+        ("oracle+nodriver://ada:secret@host/db", "cannot be opened"),
+    ],
+)
+@pytest.mark.parametrize("words", [("sheets",), ("job", "list")])
+def test_a_database_that_cannot_be_reached_is_told_of_without_its_password(
+    words: tuple[str, ...],
+    database: str,
+    why: str,
+    foldmill: Run,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    monkeypatch.setenv("FOLDMILL_DATABASE", database)
+    told = foldmill(*words)
+    assert told.code == 2
+    assert "The ledger" in told.err
+    assert why in " ".join(told.err.split())
+    assert "secret" not in told.err

@@ -79,8 +79,7 @@ def test_an_order_waits_until_there_is_room_to_plan_it(
     assert held.state is JobState.PLANNING, held.note
     assert f"The disk of {disk.place}" in held.note
     assert host._due()[PLANNING] == 1, "it is tried again"
-    host.store.close()
-    host._lock.release()
+    host._held.close()
 
 
 def test_an_upload_for_which_there_is_no_room_is_to_be_sent_again(disk: Disk) -> None:

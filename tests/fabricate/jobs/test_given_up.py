@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from fabricate.jobs.terminal import plain, said, typing
 from fabricate.jobs.workshop import PATIENCE, SPEED_UP, Workshop, workshop
 
 from foldmill_fabricate.jobs import JobState, Kind, Reply
@@ -17,24 +16,6 @@ from foldmill_fabricate.plotter.ledger import State
 
 SLOW = SPEED_UP / 8
 """How much slower than in other tests: a person is quick enough to say something."""
-
-
-def environment(shop: Workshop) -> dict[str, str]:
-    """Return that of a person at the same computer."""
-    more = {
-        "XDG_STATE_HOME": str(shop.root / "state"),
-        "XDG_CONFIG_HOME": str(shop.root / "config"),
-        "FOLDMILL_DATABASE": shop.places.database,
-    }
-    return {**os.environ, **more}
-
-
-def said(shop: Workshop, *words: str) -> subprocess.CompletedProcess[str]:
-    """Call the command in a process of its own."""
-    command = [sys.executable, "-m", "foldmill_fabricate", *words]
-    return subprocess.run(
-        command, env=environment(shop), capture_output=True, text=True, check=False, timeout=60
-    )
 
 
 def under_way(shop: Workshop) -> str:
@@ -96,27 +77,17 @@ def test_a_question_about_a_sheet_that_is_given_up_is_withdrawn(tmp_path: Path) 
 def test_a_sheet_that_is_sent_by_hand_is_given_up_from_another_terminal(tmp_path: Path) -> None:
     with workshop(tmp_path, speed_up=SLOW) as shop:
         shop.at.cancel(shop.job)
-        command = [sys.executable, "-m", "foldmill_fabricate", "send", str(shop.folder)]
-        with subprocess.Popen(
-            [*command, "--port", shop.port],
-            env=environment(shop),
-            text=True,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        ) as sender:
-            assert sender.stdin is not None
-            ledger = shop.at.store.ledger
+        with typing(shop, "send", str(shop.folder), "--port", shop.port) as sender:
             sheet = answered(sender, shop)
             spoiled = said(shop, "sheets", sheet, "--spoiled")
             told, _ = sender.communicate(timeout=30)
         shop.rest()
-        assert "stops the machine now" in " ".join(spoiled.stderr.split())
+        assert "stops the machine now" in plain(spoiled.stderr)
         assert sender.returncode == 2, told
-        assert f"Sheet {sheet} was given up while" in " ".join(told.split())
-        assert "lift its tool" in " ".join(told.split())
+        assert f"Sheet {sheet} was given up while" in plain(told)
+        assert "lift its tool" in plain(told)
         assert not shop.simulator.sheet.under_way
-        assert ledger.sheet(sheet).is_given_up
+        assert shop.at.store.ledger.sheet(sheet).is_given_up
 
 
 def answered(sender: subprocess.Popen[str], shop: Workshop) -> str:

@@ -38,6 +38,9 @@ def test_what_is_missing_is_cut_on_the_same_sheet_and_nothing_twice(tmp_path: Pa
         before = drawn(shop.simulator)
         rest = shop.at.remake(shop.job, Rest())
         assert shop.at.remake(shop.job, Rest()).id == rest.id, "the rest is made once"
+        shop.at.cancel(rest.id)
+        idle, rest = rest, shop.at.remake(shop.job, Rest())
+        assert rest.id != idle.id, "one that was ended before it was begun stands in no one's way"
         assert rest.remakes == sheet
         shop.job = rest.id
         shop.run()

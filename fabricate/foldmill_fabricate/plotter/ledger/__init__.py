@@ -8,7 +8,7 @@ doubtful and what is left.
 
 from __future__ import annotations
 
-from foldmill_fabricate.plotter.ledger.ledger import Ledger, ledger_file
+from foldmill_fabricate.plotter.ledger.ledger import Ledger, ledger_file, ledger_place
 from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
 from foldmill_fabricate.plotter.ledger.reading import account
 from foldmill_fabricate.plotter.ledger.run import Run
@@ -38,4 +38,5 @@ __all__ = [
     "Word",
     "account",
     "ledger_file",
+    "ledger_place",
 ]

@@ -62,5 +62,6 @@ def _statement() -> Update:
         program, PROGRAMS.c.token == token, PROGRAMS.c.state == State.RUNNING.value
     )
     mine = (RUNS.c.sheet == sheet) & (RUNS.c.number == number) & (RUNS.c.token == token)
+    running = running.with_for_update(read=True)  # whoever takes the token waits for this, or it
     change = update(RUNS).where(mine, running.exists())
     return change.values(sent=bindparam("sent"), acked=bindparam("acked"))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import sys
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -14,9 +13,14 @@ from sqlalchemy import Connection, insert, select
 from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused, Spoiled
-from foldmill_fabricate.plotter.ledger import origins, reading, words, writing
+from foldmill_fabricate.plotter.holding import Holder
+from foldmill_fabricate.plotter.ledger import origins, reading, sharing, words, writing
 from foldmill_fabricate.plotter.ledger.advancing import Advance
 from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
+from foldmill_fabricate.plotter.ledger.places import ledger_file as ledger_file
+from foldmill_fabricate.plotter.ledger.places import ledger_place as ledger_place
+from foldmill_fabricate.plotter.ledger.places import state_folder as state_folder
+from foldmill_fabricate.plotter.ledger.places import told
 from foldmill_fabricate.plotter.ledger.reading import (
     not_ready,
     program_row,
@@ -38,21 +42,6 @@ from foldmill_fabricate.plotter.ledger.writing import note, set_state, stamp
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"
 """Of a sheet's id: none that a hand-written one is mistaken for."""
 _CRASHED = "The run before was never ended: it crashed, or was killed."
-
-
-def state_folder() -> Path:
-    """Return the folder of what foldmill keeps of its work for this user; it need not exist.
-
-    ``$XDG_STATE_HOME/foldmill``, on Windows under ``%LOCALAPPDATA%``, by default under
-    ``~/.local/state``.
-    """
-    home = os.environ.get("LOCALAPPDATA" if sys.platform == "win32" else "XDG_STATE_HOME")
-    return (Path(home) if home else Path.home() / ".local/state") / "foldmill"
-
-
-def ledger_file() -> Path:
-    """Return the file of this user's ledger; its folder need not exist."""
-    return state_folder() / "ledger.sqlite"
 
 
 def utc() -> datetime:
@@ -79,15 +68,35 @@ class Ledger:
             self._advance = Advance(self._engine)
         except LedgerFailed:
             raise
-        except (SQLAlchemyError, OSError) as error:
+        except (SQLAlchemyError, OSError, ImportError) as error:
             reason = str(error).splitlines()[0]
             raise LedgerRefused(
-                f"The ledger {place} cannot be opened: {reason}. Nothing is sent without it."
+                f"The ledger {told(place)} cannot be opened: {reason}. Nothing is sent without it."
             ) from None
 
     def close(self) -> None:
         """Let go of the database."""
         self._engine.dispose()
+
+    def reserved(
+        self, names: Sequence[str], holder: Holder
+    ) -> AbstractContextManager[sharing.Keep]:
+        """Hold names among all computers of this database while a context lasts; raises Held.
+
+        What it gives is called now and then by whoever holds them long.
+        """
+        return sharing.reserved(self._engine, names, holder)
+
+    def is_reserved(self, name: str) -> bool:
+        """Tell whether some computer holds a name."""
+        return sharing.is_reserved(self._engine, name)
+
+    @property
+    def file(self) -> Path | None:
+        """The file it is in; None where it is in memory, or on a server."""
+        url = self._engine.url
+        is_file = url.get_backend_name() == "sqlite" and url.database
+        return Path(str(url.database)).resolve() if is_file else None
 
     @property
     def is_shared(self) -> bool:
@@ -175,7 +184,7 @@ class Ledger:
     def claim(self, sheet: str, number: int, device: str) -> Run:
         """Take a ready program's token.
 
-        Whoever calls holds the device's lock. Raises LedgerRefused, with the sentence, where the
+        Whoever calls holds device and sheet. Raises LedgerRefused, with the sentence, where the
         program is not ready; one that another run left without an end is interrupted from then on.
         """
         with self._engine.begin() as at:
@@ -192,7 +201,7 @@ class Ledger:
     def recover(self, sheet: str, number: int) -> Record:
         """Return a program; a run of it that nobody ended is interrupted from now on.
 
-        Whoever calls holds the device's lock, so that such a run is dead.
+        Whoever calls holds the sheet (``alone_on``), so that such a run is dead.
         """
         with self._engine.begin() as at:
             row = program_row(at, sheet, number)

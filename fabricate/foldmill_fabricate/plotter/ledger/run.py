@@ -54,6 +54,13 @@ class Run:
         """Give the token back; ``note`` : why, a sentence."""
         self._ledger.end(self, state, note)
 
+    def cut_off(self, note: str) -> None:
+        """Give the token back before the end; a loss of it is told together with the note."""
+        try:
+            self.end(State.INTERRUPTED, note)
+        except Fenced as lost:
+            raise type(lost)(f"{lost} {note}") from None
+
     def loss(self) -> Fenced | None:
         """Return why this run may not go on, Fenced or Spoiled; None while it holds its token."""
         return self._ledger.loss(self)

@@ -101,6 +101,14 @@ ANSWERS = Table(
     Column("told", Text, nullable=False),
 )
 
+HOLDERS = Table(
+    "holders",
+    METADATA,
+    Column("name", Text, primary_key=True),
+    Column("holder", Text, nullable=False),
+)
+"""Who said to hold a name in a database of many computers; it counts while the lock is held."""
+
 
 def connect(place: Path | str) -> Engine:
     """Open a ledger's database, a file's path or an SQLAlchemy URL, with all its tables."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import getpass
 import json
 from collections.abc import Mapping
 from datetime import datetime
@@ -10,17 +9,10 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, and_, insert, update
 
+from foldmill_fabricate.plotter.holding import person as person
 from foldmill_fabricate.plotter.ledger.reading import at_program
 from foldmill_fabricate.plotter.ledger.tables import ANSWERS, AUDIT, PROGRAMS
 from foldmill_fabricate.plotter.ledger.values import FOLLOWS, State
-
-
-def person() -> str:
-    """Return who is at the computer, as it knows them."""
-    try:
-        return getpass.getuser()
-    except (OSError, KeyError):
-        return "somebody"
 
 
 def set_state(at: Connection, row: Row[Any], to: State, **values: Any) -> bool:
