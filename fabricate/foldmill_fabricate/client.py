@@ -21,7 +21,7 @@ from types import TracebackType
 from typing import Any, Self, TypeVar
 
 import httpx
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.foreign import Asked
@@ -304,4 +304,7 @@ class Client:
         return answer
 
     def _read(self, kind: type[T], answer: httpx.Response) -> T:
-        return TypeAdapter(kind).validate_json(answer.content)
+        try:
+            return TypeAdapter(kind).validate_json(answer.content)
+        except ValidationError as error:
+            raise answers.not_understood(self.url, error) from None

@@ -9,8 +9,10 @@ from typing import Any
 from urllib.parse import quote
 
 import httpx
+from pydantic import ValidationError
 
 from foldmill.errors import FoldmillError
+from foldmill.refusals import explain
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.values import Event
@@ -55,6 +57,14 @@ def unreachable(url: str, error: httpx.HTTPError) -> Unreachable:
     """Return the sentence on a service that does not answer."""
     why = str(error) or type(error).__name__
     return Unreachable(f"The service at {url} does not answer: {why}. Does foldmill serve run?")
+
+
+def not_understood(url: str, error: ValidationError) -> ServiceRefused:
+    """Return the sentence on an answer that another version gives, and this one does not know."""
+    return ServiceRefused(
+        f"The service at {url} answers what this version of foldmill does not understand: "
+        f"{explain(error)} Is it of the same version? Ask its /api/v1."
+    )
 
 
 def done(status: PlanStatus) -> PlanStatus:

@@ -14,7 +14,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.plan_options import PlanOptions
 
-Digest = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+DIGEST = "^[0-9a-f]{64}$"
+Digest = Annotated[str, Field(pattern=DIGEST)]
 """A SHA-256 in hexadecimal."""
 Slug = Annotated[str, Field(min_length=1, max_length=100)]
 """The name of a family, a material or a machine."""
