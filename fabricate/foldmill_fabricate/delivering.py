@@ -63,12 +63,12 @@ class Sent:
     """What the ledger says of it now."""
 
 
-def own_ledger(url: str) -> Ledger:
-    """Return the ledger that a device's sheets are in.
+def own_ledger(url: str, who: str = "") -> Ledger:
+    """Return the ledger that a device's sheets are in; who : signs in it.
 
     A simulator in this process ends with it, and so do its sheets: they are kept in memory.
     """
-    return Ledger("sqlite://" if url.startswith("sim://") else ledger_file())
+    return Ledger("sqlite://" if url.startswith("sim://") else ledger_file(), who=who)
 
 
 def send_job(
@@ -255,7 +255,7 @@ class _Work:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
             told = {"set-up": setup.name, "attempt": attempt + 1, "verdict": verdict.value}
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, told)
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, told, bench.operator.who)
             if verdict is Verdict.STOP:
                 raise CannotSend(
                     f"The test cut for {setup.name} is not as it should be, and nothing of the "
@@ -300,8 +300,8 @@ class _Work:
         assert self.run is not None
         state = _ENDS[delivery.status]
         self.run.end(state, delivery.fault or delivery.proved)
-        answers = self.bench.job.plan.machine.serial.answers
-        cannot_say = state is State.UNCONFIRMED and not answers
-        if cannot_say and self.bench.operator.has_finished(self.record):
-            return self.ledger.say(self.sheet, self.number, Said(Word.FINISHED)).state
+        operator, answers = self.bench.operator, self.bench.job.plan.machine.serial.answers
+        if state is State.UNCONFIRMED and not answers and operator.has_finished(self.record):
+            finished = Said(Word.FINISHED)
+            return self.ledger.say(self.sheet, self.number, finished, operator.who).state
         return state

@@ -47,6 +47,7 @@ def sheets(
         typer.Option(help="The folder it was begun from, where that was moved since."),
     ] = None,
     to: Formats = None,
+    who: Annotated[str, typer.Option(help="Who says so; default: whoever is here.")] = "",
     as_json: AsJson = False,
 ) -> None:
     """List the sheets that are begun and not finished, or tell all about one.
@@ -66,7 +67,7 @@ def sheets(
     if not name and not ledger_file().exists():
         say(as_json, [], "No sheet is under work.")
         return
-    ledger = Ledger(ledger_file())
+    ledger = Ledger(ledger_file(), who=who)
     if not name:
         found = ledger.open_sheets()
         say(as_json, [_row(one) for one in found], _list(found))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, TypeVar
 from urllib.parse import quote
 
 import httpx
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from foldmill.errors import FoldmillError
 from foldmill.refusals import explain
@@ -19,6 +19,7 @@ from foldmill_fabricate.jobs.values import Event
 from foldmill_fabricate.service.models import PlanState, PlanStatus, PlotterStatus
 from foldmill_fabricate.service.urns import urn
 
+T = TypeVar("T")
 _EVENTS = "/api/v1/events"
 _AGAIN = 0.5
 """s before a connection that broke is made again."""
@@ -59,12 +60,15 @@ def unreachable(url: str, error: httpx.HTTPError) -> Unreachable:
     return Unreachable(f"The service at {url} does not answer: {why}. Does foldmill serve run?")
 
 
-def not_understood(url: str, error: ValidationError) -> ServiceRefused:
-    """Return the sentence on an answer that another version gives, and this one does not know."""
-    return ServiceRefused(
-        f"The service at {url} answers what this version of foldmill does not understand: "
-        f"{explain(error)} Is it of the same version? Ask its /api/v1."
-    )
+def understood(kind: type[T], content: bytes, url: str) -> T:
+    """Return an answer as a value; raises ServiceRefused for one of another version's."""
+    try:
+        return TypeAdapter(kind).validate_json(content)
+    except ValidationError as error:
+        raise ServiceRefused(
+            f"The service at {url} answers what this version of foldmill does not understand: "
+            f"{explain(error)} Is it of the same version? Ask its /api/v1."
+        ) from None
 
 
 def done(status: PlanStatus) -> PlanStatus:

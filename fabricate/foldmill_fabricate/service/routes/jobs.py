@@ -22,6 +22,8 @@ from foldmill_fabricate.service.workshop import Workshop
 
 ROUTER = APIRouter(tags=["jobs"])
 Shop = Annotated[Workshop, Depends(workshop)]
+SOMEBODY = "somebody"
+"""Who has sent a request that no token signs, nor ``who``: it need not be who runs the service."""
 Who = Annotated[
     str, Query(max_length=60, description="Who says so, where no token tells; for the history.")
 ]
@@ -30,7 +32,7 @@ Name = Annotated[str, Path(max_length=200)]
 
 
 def _who(caller: Caller, said: str) -> str:
-    return caller.name or said
+    return caller.name or said or SOMEBODY
 
 
 @ROUTER.get("/plotters", responses=READING)
