@@ -20,6 +20,12 @@ _LIMITS = {
     "less_than": ("less than", "lt"),
     "less_than_equal": ("at most", "le"),
 }
+_SIZES = {
+    "string_too_short": ("at least", "min_length", "characters"),
+    "string_too_long": ("at most", "max_length", "characters"),
+    "too_short": ("at least", "min_length", "entries"),
+    "too_long": ("at most", "max_length", "entries"),
+}
 _KINDS = {
     "bool_parsing": "yes or no",
     "bool_type": "yes or no",
@@ -29,10 +35,13 @@ _KINDS = {
     "float_type": "a number",
     "int_from_float": "a whole number",
     "int_parsing": "a whole number",
+    "int_parsing_size": "a whole number of fewer digits",
     "int_type": "a whole number",
     "list_type": "a list",
+    "model_attributes_type": "a table of names and values",
     "model_type": "a table of names and values",
     "string_type": "text",
+    "string_unicode": "text in UTF-8",
     "tuple_type": "a list",
 }
 
@@ -54,9 +63,12 @@ def sentences(
     return [(fault["loc"], _sentence(fault, schema, branches)) for fault in error.errors()]
 
 
-def sentence_of(fault: Mapping[str, Any]) -> str:
-    """Return the sentence of one fault, as pydantic describes it."""
-    return _sentence(fault, {}, _BRANCHES)
+def sentence_of(fault: Mapping[str, Any], spelled: Mapping[str, str] | None = None) -> str:
+    """Return the sentence of one fault, as pydantic describes it.
+
+    spelled : regular expressions that text has to match, and what such a text is called.
+    """
+    return _sentence(fault, {}, _BRANCHES, spelled or {})
 
 
 def _tags(node: Any) -> Iterator[str]:
@@ -67,7 +79,12 @@ def _tags(node: Any) -> Iterator[str]:
         yield from _tags(part)
 
 
-def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[str]) -> str:
+def _sentence(
+    fault: Mapping[str, Any],
+    schema: dict[str, Any],
+    branches: set[str],
+    spelled: Mapping[str, str] = {},
+) -> str:
     path = tuple(str(part) for part in fault["loc"] if part not in branches)
     name, kind, context = ".".join(path), fault["type"], fault.get("ctx", {})
     if kind == "missing":
@@ -81,9 +98,13 @@ def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[st
     if kind in _KINDS and name:
         return f"{name} must be {_KINDS[kind]}, not {_given(fault)}."
     if kind in {"literal_error", "enum"} and name:
-        return f"{name} must be {context['expected']}, not {_given(fault)}."
-    if kind == "string_too_short" and name and context["min_length"] == 1:
-        return f"{name} must not be left empty."
+        expected = context["expected"].replace("''", "empty")
+        return f"{name} must be {expected}, not {_given(fault)}."
+    if kind in _SIZES and name:
+        return f"{name} {_size(fault)}"
+    if kind == "string_pattern_mismatch" and name:
+        words = spelled.get(context["pattern"], f"written as {context['pattern']}")
+        return f"{name} must be {words}, not {_given(fault)}."
     if kind == "union_tag_not_found":
         key = context["discriminator"].strip("'")
         return f"{name}.{key} is missing: say which of its kinds it is."
@@ -93,6 +114,15 @@ def _sentence(fault: Mapping[str, Any], schema: dict[str, Any], branches: set[st
     said = fault["msg"].removeprefix("Value error, ").rstrip(".")
     shown = "" if isinstance(fault["input"], (Mapping, list, tuple)) else f" (got {_given(fault)})"
     return f"{name}: {said}{shown}." if name else f"{_opened(said)}."
+
+
+def _size(fault: Mapping[str, Any]) -> str:
+    """Return the end of a sentence on something that is too short or too long."""
+    words, key, what = _SIZES[fault["type"]]
+    limit = fault["ctx"][key]
+    if key == "min_length" and limit == 1:
+        return "must not be left empty."
+    return f"must have {words} {limit} {what}, not {len(fault['input'])}."
 
 
 def _opened(said: str) -> str:

@@ -9,7 +9,8 @@
             ...
 
 It has the verbs of ``foldmill_fabricate.jobs.Jobs``, so that whoever uses those need not know where
-the jobs are. A service elsewhere wants a token.
+the jobs are. A service elsewhere wants a token, and its name signs; else ``who`` does, by default
+whoever is at this computer.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from types import TracebackType
 from typing import Any, Self, TypeVar
 
 import httpx
-from pydantic import TypeAdapter
 
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.foreign import Asked
+from foldmill_fabricate.jobs.rows import person
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.values import (
     Event,
@@ -190,7 +191,7 @@ class Client:
 
     def submit(self, asked: Submission, who: str = "") -> JobRecord:
         """Put a job in the queue of its plotter."""
-        return self._post(JobRecord, "/jobs", asked.model_dump(mode="json"), who)
+        return self._change("/jobs", asked.model_dump(mode="json"), who)
 
     def machine_of(self, plotter: str) -> str:
         """Return the slug of a plotter's machine; raises NoSuchJob."""
@@ -212,7 +213,7 @@ class Client:
     def answer(self, question: str, reply: Reply, who: str = "") -> None:
         """Answer a question, once."""
         path = f"/questions/{answers.quoted(question)}/answer"
-        self._post(JobRecord, path, reply.model_dump(mode="json"), who)
+        self._change(path, reply.model_dump(mode="json"), who)
 
     def pause(self, name: str, who: str = "") -> JobRecord:
         """Have nothing more of a job cut for now."""
@@ -282,16 +283,20 @@ class Client:
     def _bytes(self, path: str) -> bytes:
         return self._answered("GET", path).content
 
-    def _post(self, kind: type[T], path: str, body: Any, who: str = "") -> T:
-        asked = {"who": who} if who else {}
-        return self._read(kind, self._answered("POST", path, json=body, params=asked))
+    def _post(self, kind: type[T], path: str, body: Any) -> T:
+        return self._read(kind, self._answered("POST", path, json=body))
 
     def _send(self, kind: type[T], path: str, content: bytes, asked: Mapping[str, Any]) -> T:
         answer = self._answered("POST", path, content=content, headers=_UPLOAD, params=asked)
         return self._read(kind, answer)
 
     def _want(self, name: str, verb: str, body: Any, who: str) -> JobRecord:
-        return self._post(JobRecord, f"/jobs/{answers.quoted(name)}/{verb}", body, who)
+        return self._change(f"/jobs/{answers.quoted(name)}/{verb}", body, who)
+
+    def _change(self, path: str, body: Any, who: str) -> JobRecord:
+        """Change a job in somebody's name; where the service wants a token, that is the token's."""
+        signed = {"who": who or person()[:60]}
+        return self._read(JobRecord, self._answered("POST", path, json=body, params=signed))
 
     def _answered(self, method: str, path: str, **how: Any) -> httpx.Response:
         """Return an answer; raises the error that the service tells of, or Unreachable."""
@@ -304,4 +309,4 @@ class Client:
         return answer
 
     def _read(self, kind: type[T], answer: httpx.Response) -> T:
-        return TypeAdapter(kind).validate_json(answer.content)
+        return answers.understood(kind, answer.content, self.url)

@@ -251,12 +251,13 @@ class _Work:
             attempt = trials.begun(self.ledger.answers(self.sheet), setup)
             program = trials.trial_program(bench.job, self.part.face, setup, attempt)
             told = {"set-up": setup.name, "attempt": attempt + 1}
-            self.ledger.answer(self.sheet, self.number, trials.BEGUN, told)
+            self.ledger.answer(self.sheet, self.number, trials.BEGUN, told, bench.operator.who)
             delivery = sender.send(program, bench.port, bench.job.plan.machine, wish=bench.wish)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, told | {"verdict": verdict.value})
+            told = told | {"verdict": verdict.value}
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, told, bench.operator.who)
             if verdict is Verdict.STOP:
                 raise CannotSend(trials.BAD.format(setup.name))
             wanted = verdict is Verdict.AGAIN
@@ -293,8 +294,8 @@ class _Work:
         assert self.run is not None
         state = _ENDS[delivery.status]
         self.run.end(state, delivery.fault or delivery.proved)
-        answers = self.bench.job.plan.machine.serial.answers
-        cannot_say = state is State.UNCONFIRMED and not answers
-        if cannot_say and self.bench.operator.has_finished(self.record):
-            return self.ledger.say(self.sheet, self.number, Said(Word.FINISHED)).state
+        operator, answers = self.bench.operator, self.bench.job.plan.machine.serial.answers
+        if state is State.UNCONFIRMED and not answers and operator.has_finished(self.record):
+            finished = Said(Word.FINISHED)
+            return self.ledger.say(self.sheet, self.number, finished, operator.who).state
         return state

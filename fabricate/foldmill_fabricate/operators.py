@@ -24,6 +24,11 @@ class Verdict(StrEnum):
 class Operator(Protocol):
     """Whoever stands at the machine."""
 
+    @property
+    def who(self) -> str:
+        """Who has spoken last; empty for whoever is at the computer."""
+        ...
+
     def ready(self, request: Request) -> Answer | None:
         """Do what the gate asks for; None ends the job before the set-up starts."""
         ...
@@ -61,6 +66,8 @@ class SimulatedOperator:
 
     What is in doubt it decides only where the machine proves its place.
     """
+
+    who = ""
 
     def __init__(self, url: str) -> None:
         self._simulator = devices.behind(url)

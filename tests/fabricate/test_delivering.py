@@ -330,6 +330,8 @@ def test_after_a_killed_host_the_truth_lies_between_certain_and_doubtful(
 class Terminal:
     """A person who believes the machine where it proves its place."""
 
+    who = ""
+
     def ready(self, request: Request) -> Answer:
         return Answer(sheet=request.sheet)
 

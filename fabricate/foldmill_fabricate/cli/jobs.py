@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from foldmill import FoldmillError
+from foldmill.errors import InvalidInput
 from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
+
     from foldmill_fabricate.jobs import JobRecord, Jobs, Question, Submission
 
+V = TypeVar("V", bound="BaseModel")
 jobs = typer.Typer(
     name="job", no_args_is_help=True, help="Jobs that wait for a plotter, and survive a crash."
 )
@@ -146,9 +150,6 @@ def answer(
     who: Who = "",
 ) -> None:
     """Say that what a job asks for is done, or how it goes on."""
-    from pydantic import ValidationError
-
-    from foldmill.refusals import explain
     from foldmill_fabricate.cli.person import read_word
     from foldmill_fabricate.jobs import Reply
 
@@ -159,20 +160,18 @@ def answer(
     if word is not None:
         spoken = {"word": word.word.value, "vertex": word.vertex, "overlap": word.overlap}
         spoken |= {"stroke": word.stroke + 1} if go_on else {}
-    try:
-        reply = Reply(
-            ok=not no,
-            sheet=sheet,
-            thickness=thickness,
-            temperature=temperature,
-            exposure=exposure,
-            touched=touched,
-            marks=tuple(read_marks(marks)),
-            verdict=verdict,
-            **spoken,
-        )
-    except ValidationError as error:
-        raise FoldmillError(explain(error)) from None
+    reply = _stated(
+        Reply,
+        ok=not no,
+        sheet=sheet,
+        thickness=thickness,
+        temperature=temperature,
+        exposure=exposure,
+        touched=touched,
+        marks=tuple(read_marks(marks)),
+        verdict=verdict,
+        **spoken,
+    )
     desk, works = _desk(None)
     desk.answer(question, reply, who)
     typer.echo("Answered." if works else f"Answered; {_IDLE}, and it is asked anew then.")
@@ -228,7 +227,8 @@ def remake(
     """Submit what is missing on a sheet of a job that was cancelled, or on one given up."""
     from foldmill_fabricate.jobs import Rest
 
-    said = Rest(sheet=sheet, doubtful=tuple(doubtful or ()), half=tuple(half or ()), priority=rank)
+    given = {"doubtful": doubtful or (), "half": half or (), "priority": rank}
+    said = _stated(Rest, sheet=sheet, **given)
     _told(_desk(None)[0].remake(job, said, who), as_json)
 
 
@@ -253,16 +253,22 @@ def _desk(more: list[str] | None) -> tuple[Jobs, bool]:
 
 
 def _submission(**given: Any) -> Submission:
-    """Return what is submitted; raises FoldmillError with the sentence."""
+    """Return what is submitted; raises InvalidInput with the sentence."""
+    from foldmill_fabricate.jobs import Submission
+
+    return _stated(Submission, **given)
+
+
+def _stated(kind: type[V], **given: Any) -> V:
+    """Return what was stated as a value; raises InvalidInput with the sentence."""
     from pydantic import ValidationError
 
     from foldmill.refusals import explain
-    from foldmill_fabricate.jobs import Submission
 
     try:
-        return Submission(**given)
+        return kind.model_validate(given)
     except ValidationError as error:
-        raise FoldmillError(explain(error)) from None
+        raise InvalidInput(explain(error, kind)) from None
 
 
 def _told(job: JobRecord, as_json: bool) -> None:

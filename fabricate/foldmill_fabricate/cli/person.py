@@ -61,6 +61,8 @@ def _place(text: str, overlap: float = 0.0) -> Said:
 class Person:
     """The operator at a terminal; every prompt takes q to stop."""
 
+    who = ""
+
     def __init__(self, word: Said | None = None) -> None:
         self._word = word
 

@@ -81,6 +81,9 @@ def send(
     transcript: Annotated[
         Path | None, typer.Option(help="A file for what goes over the wire, one JSON line each.")
     ] = None,
+    who: Annotated[
+        str, typer.Option(help="Who stands at the machine; default: whoever is at the computer.")
+    ] = "",
     as_json: AsJson = False,
 ) -> None:
     """Verify a job folder again and send it, prompting before each set-up.
@@ -88,7 +91,7 @@ def send(
     A software stop (Ctrl-C) is no emergency stop: keep a hand near the machine's own.
     """
     from foldmill_fabricate.cli.person import operator, read_word
-    from foldmill_fabricate.delivering import send_job
+    from foldmill_fabricate.delivering import own_ledger, send_job
     from foldmill_fabricate.passes import Face
     from foldmill_fabricate.plotter.ledger import State
     from foldmill_fabricate.sending import open_job
@@ -114,6 +117,7 @@ def send(
             hands,
             faces,
             bar.tell,
+            own_ledger(port, who),
             sheet=sheet,
             test_cut=test_cut,
             transcript=transcript,

@@ -47,6 +47,7 @@ def sheets(
         typer.Option(help="The folder it was begun from, where that was moved since."),
     ] = None,
     to: Formats = None,
+    who: Annotated[str, typer.Option(help="Who says so; default: whoever is here.")] = "",
     as_json: AsJson = False,
 ) -> None:
     """List the sheets that are begun and not finished, or tell all about one.
@@ -67,7 +68,7 @@ def sheets(
     if not name and isinstance(place, Path) and not place.exists():
         say(as_json, [], "No sheet is under work.")
         return
-    ledger = Ledger(place)
+    ledger = Ledger(place, who=who)
     if not name:
         found = ledger.open_sheets()
         say(as_json, [_row(one) for one in found], _list(found))

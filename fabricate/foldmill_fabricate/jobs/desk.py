@@ -20,7 +20,7 @@ from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter, find
 from foldmill_fabricate.jobs.rest import plan_rest_elsewhere
-from foldmill_fabricate.jobs.rows import About
+from foldmill_fabricate.jobs.rows import About, person
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import JobStore
 from foldmill_fabricate.jobs.values import Happening, JobRecord, Question, Reply, Rest, Submission
@@ -221,7 +221,7 @@ class Desk:
         record = self.store.ledger.sheet(sheet)
         settled = {State.READY, State.DONE}
         if record.is_begun and record.is_open and {one.state for one in record.records} <= settled:
-            self.store.ledger.give_up(sheet, who)
+            self.store.ledger.give_up(sheet, who or person())
 
     def history(self, name: str) -> list[Happening]:
         """Return who did what, and when, to a job and its sheets."""

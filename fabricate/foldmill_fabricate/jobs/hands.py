@@ -39,6 +39,7 @@ class Hands:
     ) -> None:
         self._store, self._job, self._token, self._leaving = store, job, token, leaving
         self._simulated = url if url.startswith("sim://") else ""
+        self.who = ""
         self.sheet = ""
         """Id of the sheet that is worked on, while it is one that may be given up."""
 
@@ -119,6 +120,7 @@ class Hands:
         self._store.move(self._job, self._token, JobState.RUNNING)
         reply = self._wait(self._store.ask(self._token, asked))
         self._store.move(self._job, self._token, JobState.RUNNING)
+        self.who = reply[1]
         return reply
 
     def _go_on(self, reply: Reply) -> None:

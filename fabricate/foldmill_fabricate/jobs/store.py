@@ -40,7 +40,7 @@ class JobStore:
     """
 
     def __init__(self, place: Path | str, now: Callable[[], datetime] = utc) -> None:
-        self.ledger = Ledger(place, now)
+        self.ledger = Ledger(place, now, rows.WORKER)
         self._now = now
         try:
             self._engine = connect(place)

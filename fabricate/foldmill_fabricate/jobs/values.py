@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -135,9 +135,9 @@ class Reply(_Value):
     """whether the sheet was moved, or taken off"""
     marks: tuple[tuple[float, float], ...] = Field(default=(), max_length=100)
     """where registration marks are seen now, carrier coordinates in mm"""
-    verdict: str = Field(default="", pattern="^(|good|again|stop)$")
+    verdict: Literal["", "good", "again", "stop"] = ""
     """of a test cut"""
-    word: str = Field(default="", pattern="^(|go on|finished|spoiled)$")
+    word: Literal["", "go on", "finished", "spoiled"] = ""
     """of a program in doubt"""
     stroke: int = Field(default=0, ge=0)
     """with go on: the first that is cut next, 1, 2, 3 …; 0: where the machine proves to stand"""

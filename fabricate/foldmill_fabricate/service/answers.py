@@ -5,18 +5,21 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, TypeVar
 from urllib.parse import quote
 
 import httpx
+from pydantic import TypeAdapter, ValidationError
 
 from foldmill.errors import FoldmillError
+from foldmill.refusals import explain
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.values import Event
 from foldmill_fabricate.service.models import PlanState, PlanStatus, PlotterStatus
 from foldmill_fabricate.service.urns import urn
 
+T = TypeVar("T")
 _EVENTS = "/api/v1/events"
 _AGAIN = 0.5
 """s before a connection that broke is made again."""
@@ -55,6 +58,17 @@ def unreachable(url: str, error: httpx.HTTPError) -> Unreachable:
     """Return the sentence on a service that does not answer."""
     why = str(error) or type(error).__name__
     return Unreachable(f"The service at {url} does not answer: {why}. Does foldmill serve run?")
+
+
+def understood(kind: type[T], content: bytes, url: str) -> T:
+    """Return an answer as a value; raises ServiceRefused for one of another version's."""
+    try:
+        return TypeAdapter(kind).validate_json(content)
+    except ValidationError as error:
+        raise ServiceRefused(
+            f"The service at {url} answers what this version of foldmill does not understand: "
+            f"{explain(error)} Is it of the same version? Ask its /api/v1."
+        ) from None
 
 
 def done(status: PlanStatus) -> PlanStatus:

@@ -20,6 +20,7 @@ from foldmill.errors import FoldmillError, PluginFault
 from foldmill.refusals import sentence_of
 from foldmill_fabricate.jobs.errors import JobRefused, NoSuchJob
 from foldmill_fabricate.plotter.errors import LedgerRefused, PlotterError
+from foldmill_fabricate.service.ids import SPELLED
 from foldmill_fabricate.service.models import Problem
 from foldmill_fabricate.service.sandbox import Refused, SandboxFailed
 from foldmill_fabricate.service.urns import dashed, urn
@@ -130,9 +131,11 @@ def _fault(fault: Mapping[str, Any]) -> str:
     if fault["type"] == "json_invalid":
         return f"The body is no JSON: {fault.get('ctx', {}).get('error', 'it cannot be read')}."
     where, *place = fault["loc"]
-    if not place:
-        return f"The {where} is missing or not what it must be: {fault['msg']}."
-    return sentence_of({**fault, "loc": tuple(place)})
+    if place:
+        return sentence_of({**fault, "loc": tuple(place)}, SPELLED)
+    if fault["type"] == "missing":
+        return f"The {where} is missing: send a JSON object."
+    return f"The {sentence_of(fault)}"
 
 
 async def _http(request: Request, error: Exception) -> JSONResponse:

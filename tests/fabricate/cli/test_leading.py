@@ -41,7 +41,7 @@ def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(
 ) -> None:
     """The sheet lies turned by 0.2° and shifted; the operator leads the tool above each hole."""
     job, ledger = small_job(Path("job")), Ledger(tmp_path / "ledger.sqlite")
-    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url: ledger)
+    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url, _who="": ledger)
     bench = Bench(small_plan())
     *_, front = send_job(job, bench.url, bench.hands, (Face.FRONT,), ledger=ledger)
     wanted = expected_marks(job.plan)

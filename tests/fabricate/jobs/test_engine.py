@@ -142,8 +142,7 @@ def test_a_computer_is_the_same_to_the_engine_whatever_it_is_called(
         monkeypatch.setattr("socket.gethostname", lambda name=name: name)
         host = Host(Places(tmp_path, ""), {})
         names.add(host._engine._config["executor_id"])
-        host.store.close()
-        host._lock.release()
+        host._held.close()
     assert len(names) == 1
 
 

@@ -79,8 +79,7 @@ def test_an_order_that_is_cancelled_is_planned_no_further(desk: Desk) -> None:
     assert desk.job(job).state is JobState.CANCELLED
     assert desk.history(job)[-1].who == "Ada", "nothing has happened to it since"
     assert not desk.places.plans.exists(), "nothing came of it"
-    host.store.close()
-    host._lock.release()
+    host._held.close()
 
 
 def _planners() -> list[str]:

@@ -36,7 +36,9 @@ def test_what_is_missing_is_cut_on_the_same_sheet_and_nothing_twice(tmp_path: Pa
         (sheet,) = shop.at.job(shop.job).sheets
         assert shop.at.job(shop.job).state is JobState.CANCELLED
         before = drawn(shop.simulator)
-        rest = shop.at.remake(shop.job, Rest())
+        rest = shop.at.remake(shop.job, Rest(), "rob")
+        signed = [line.who for line in shop.at.history(shop.job) if line.what == "spoiled"]
+        assert (rest.who, signed) == ("rob", ["rob"])
         assert shop.at.remake(shop.job, Rest()).id == rest.id, "the rest is made once"
         shop.at.cancel(rest.id)
         idle, rest = rest, shop.at.remake(shop.job, Rest())

@@ -6,7 +6,14 @@ from collections.abc import Iterator
 
 import httpx
 import pytest
+from command import Run
 from services import running
+
+
+@pytest.fixture
+def foldmill(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Return the command."""
+    return Run(capsys, monkeypatch)
 
 
 @pytest.fixture(scope="session")

@@ -13,11 +13,6 @@ from foldmill_fabricate.service.server import policy
 from foldmill_fabricate.service.tokens import Scope, Tokens
 
 
-@pytest.fixture
-def foldmill(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    return Run(capsys, monkeypatch)
-
-
 def test_a_token_is_told_once_listed_by_name_and_revoked(foldmill: Run, tmp_path: Path) -> None:
     state = ("serve", "--state", str(tmp_path))
     secret = foldmill(*state, "--new-token", "anna", "--scope", "submit").out.strip()

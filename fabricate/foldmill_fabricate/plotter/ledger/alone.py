@@ -13,12 +13,12 @@ from foldmill_fabricate.plotter.lock import at_work, held, lock_file
 _SHARED, _OWN = "socket://", "socket://localhost:"
 
 
-def own_ledger(url: str) -> Ledger:
-    """Return the ledger that a device's sheets are in.
+def own_ledger(url: str, who: str = "") -> Ledger:
+    """Return the ledger that a device's sheets are in; who : signs in it.
 
     A simulator in this process ends with it, and so do its sheets: they are kept in memory.
     """
-    return Ledger("sqlite://" if url.startswith("sim://") else ledger_place())
+    return Ledger("sqlite://" if url.startswith("sim://") else ledger_place(), who=who)
 
 
 def by_hand(command: str) -> Holder:

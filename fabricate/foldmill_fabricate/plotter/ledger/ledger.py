@@ -52,13 +52,14 @@ def utc() -> datetime:
 class Ledger:
     """The ledger in one database.
 
-    place : a file, made where there is none, or an SQLAlchemy URL. now : the time on the wall.
-    Raises LedgerRefused where it cannot be opened. Every method raises LedgerFailed where the
-    database is away or full; what it was to write down is not, and may be tried again.
+    place : a file, made where there is none, or an SQLAlchemy URL. now : the time on the wall. who
+    : whoever signs what nobody else signs, by default whoever is at the computer. Raises
+    LedgerRefused where it cannot be opened. Every method raises LedgerFailed where the database is
+    away or full; what it was to write down is not, and may be tried again.
     """
 
-    def __init__(self, place: Path | str, now: Callable[[], datetime] = utc) -> None:
-        self._now = now
+    def __init__(self, place: Path | str, now: Callable[[], datetime] = utc, who: str = "") -> None:
+        self._now, self._who = now, who
         self._unended: dict[tuple[str, int, int], str] = {}
         """Why runs ended of which that could not be written down, by sheet, number and token."""
         try:
@@ -126,11 +127,12 @@ class Ledger:
             ready = {"sheet": name, "state": State.READY.value}
             rows = [{**ready, "number": k, **vars(one)} for k, one in enumerate(programs)]
             at.execute(insert(PROGRAMS), rows)
-            note(at, self._now(), name, None, "laid")
+            note(at, self._now(), name, None, "laid", self._who)
             if goes_on:
                 origins.take_over(at, reading.sheet(at, goes_on.sheet), goes_on)
-                note(at, self._now(), goes_on.sheet, None, f"its rest is made as sheet {name}")
-                note(at, self._now(), name, None, f"goes on with sheet {goes_on.sheet}")
+                other, who = goes_on.sheet, self._who
+                note(at, self._now(), other, None, f"its rest is made as sheet {name}", who)
+                note(at, self._now(), name, None, f"goes on with sheet {other}", who)
             origins.keep(at, name, folder, goes_on.sheet if goes_on else "")
         return self.sheet(name)
 
@@ -174,7 +176,7 @@ class Ledger:
     ) -> None:
         """Keep what a person did and measured at a gate; ``told`` : plain values by name."""
         with self._engine.begin() as at:
-            writing.answer(at, self._now(), sheet, number, gate, told, who)
+            writing.answer(at, self._now(), sheet, number, gate, told, who or self._who)
 
     def answers(self, sheet: str) -> list[Answered]:
         """Return what was done and measured at the gates of a sheet, the oldest first."""
@@ -194,7 +196,8 @@ class Ledger:
                 begun = {"first": row.first, "sent": row.first, "acked": row.first}
                 place = {"sheet": sheet, "number": number, "token": token, "vertex": row.vertex}
                 at.execute(insert(RUNS).values(device=device, **place, **begun))
-                note(at, self._now(), sheet, number, f"begun at stroke {row.first + 1} on {device}")
+                told = f"begun at stroke {row.first + 1} on {device}"
+                note(at, self._now(), sheet, number, told, self._who)
                 return Run(self, sheet, number, token, row.first, row.strokes)
         raise LedgerRefused(not_ready(self.recover(sheet, number)))
 
@@ -208,7 +211,7 @@ class Ledger:
             if State(row.state) is State.RUNNING:
                 why = self._unended.pop((sheet, number, row.token), _CRASHED)
                 set_state(at, row, State.INTERRUPTED, note=why)
-                note(at, self._now(), sheet, number, f"interrupted: {why}")
+                note(at, self._now(), sheet, number, f"interrupted: {why}", self._who)
         return self.record(sheet, number)
 
     def write(self, run: Run, sent: int, acked: int) -> None:
@@ -234,7 +237,7 @@ class Ledger:
             if row.token != run.token or not set_state(at, row, state, note=why):
                 raise _lost(run, row)
             told = f"{state.value}: {why}" if why else state.value
-            note(at, self._now(), run.sheet, run.number, told)
+            note(at, self._now(), run.sheet, run.number, told, self._who)
 
     def loss(self, run: Run) -> Fenced | None:
         """Return why a run may not go on, Fenced or Spoiled; None while it holds its token."""
@@ -257,14 +260,14 @@ class Ledger:
                     f"Somebody else has spoken of {record.program.name} of sheet {sheet} "
                     "meanwhile; look again."
                 )
-            note(at, self._now(), sheet, number, str(said), who)
+            note(at, self._now(), sheet, number, str(said), who or self._who)
         return self.record(sheet, number)
 
     def give_up(self, sheet: str, who: str = "") -> SheetRecord:
         """Give up what is left of a sheet, on a person's word; what runs of it is stopped."""
         with self._engine.begin() as at:
             words.give_up(at, sheet)
-            note(at, self._now(), sheet, None, Word.SPOILED.value, who)
+            note(at, self._now(), sheet, None, Word.SPOILED.value, who or self._who)
         return self.sheet(sheet)
 
 

@@ -14,6 +14,7 @@ from foldmill_fabricate.jobs.values import Happening
 from foldmill_fabricate.passes import Face
 from foldmill_fabricate.service.callers import Caller, Operator, Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
+from foldmill_fabricate.service.ids import JobId, OneJob, QuestionId, SheetId
 from foldmill_fabricate.service.models import Nothing, PlotterStatus, Priority, SheetPage
 from foldmill_fabricate.service.problems import NoSuch
 from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, workshop
@@ -21,7 +22,8 @@ from foldmill_fabricate.service.workshop import Workshop
 
 ROUTER = APIRouter(tags=["jobs"])
 Shop = Annotated[Workshop, Depends(workshop)]
-Id = Annotated[str, Path(pattern="^[A-Za-z0-9]{1,20}$", description="A job's id.")]
+SOMEBODY = "somebody"
+"""Who has sent a request that no token signs, nor ``who``: it need not be who runs the service."""
 Who = Annotated[
     str, Query(max_length=60, description="Who says so, where no token tells; for the history.")
 ]
@@ -30,7 +32,7 @@ Name = Annotated[str, Path(max_length=200)]
 
 
 def _who(caller: Caller, said: str) -> str:
-    return caller.name or said
+    return caller.name or said or SOMEBODY
 
 
 @ROUTER.get("/plotters", responses=READING)
@@ -59,7 +61,7 @@ def jobs(
 
 
 @ROUTER.get("/jobs/{job}", responses=READING)
-def job(job: Id, shop: Shop, _: Viewer) -> JobRecord:
+def job(job: JobId, shop: Shop, _: Viewer) -> JobRecord:
     """Tell how a job stands."""
     return shop.desk.job(job)
 
@@ -68,7 +70,7 @@ def job(job: Id, shop: Shop, _: Viewer) -> JobRecord:
 def questions(
     shop: Shop,
     _: Viewer,
-    job: Annotated[str, Query(pattern="^[A-Za-z0-9]{0,20}$", description="Only of it.")] = "",
+    job: OneJob = "",
 ) -> list[Question]:
     """List what people are asked at the machines now: gates, and how to go on."""
     return shop.desk.questions(job)
@@ -76,7 +78,7 @@ def questions(
 
 @ROUTER.post("/questions/{question}/answer", responses=CHANGING)
 def answer(
-    question: Annotated[str, Path(pattern="^[0-9a-f]{1,64}$")],
+    question: QuestionId,
     reply: Reply,
     shop: Shop,
     caller: Operator,
@@ -89,13 +91,13 @@ def answer(
 
 
 @ROUTER.post("/jobs/{job}/pause", responses=CHANGING)
-def pause(job: Id, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+def pause(job: JobId, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """Have nothing more of a job cut for now; at a machine where its tool is up next."""
     return shop.desk.pause(job, _who(caller, who))
 
 
 @ROUTER.post("/jobs/{job}/resume", responses=CHANGING)
-def resume(job: Id, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+def resume(job: JobId, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """Take back a pause."""
     found = shop.desk.resume(job, _who(caller, who))
     shop.wake()
@@ -103,19 +105,19 @@ def resume(job: Id, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> 
 
 
 @ROUTER.post("/jobs/{job}/cancel", responses=CHANGING)
-def cancel(job: Id, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+def cancel(job: JobId, _: Nothing, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """End a job, at a machine at once; this is no emergency stop."""
     return shop.desk.cancel(job, _who(caller, who))
 
 
 @ROUTER.post("/jobs/{job}/priority", responses=CHANGING)
-def priority(job: Id, to: Priority, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+def priority(job: JobId, to: Priority, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """Change a job's place in the queue."""
     return shop.desk.prioritise(job, to.priority, _who(caller, who))
 
 
 @ROUTER.post("/jobs/{job}/remake", status_code=201, responses=CHANGING)
-def remake(job: Id, said: Rest, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
+def remake(job: JobId, said: Rest, shop: Shop, caller: Operator, who: Who = "") -> JobRecord:
     """Submit a job of what is missing on a sheet of a job that has ended."""
     made = shop.desk.remake(job, said, _who(caller, who))
     shop.wake()
@@ -123,13 +125,13 @@ def remake(job: Id, said: Rest, shop: Shop, caller: Operator, who: Who = "") -> 
 
 
 @ROUTER.get("/jobs/{job}/history", responses=READING)
-def history(job: Id, shop: Shop, _: Viewer) -> list[Happening]:
+def history(job: JobId, shop: Shop, _: Viewer) -> list[Happening]:
     """Tell who did what, and when, to a job and its sheets."""
     return shop.desk.history(job)
 
 
 @ROUTER.get("/jobs/{job}/sheets", responses=READING)
-def sheets(job: Id, shop: Shop, _: Viewer) -> list[SheetPage]:
+def sheets(job: JobId, shop: Shop, _: Viewer) -> list[SheetPage]:
     """Tell how far each sheet is: strokes that are certain, doubtful, left."""
     return shop.sheets(shop.desk.job(job))
 
@@ -140,8 +142,8 @@ def sheets(job: Id, shop: Shop, _: Viewer) -> list[SheetPage]:
     response_class=Response,
 )
 async def as_cut(
-    job: Id,
-    sheet: Annotated[str, Path(pattern="^[A-Za-z0-9]{1,8}$")],
+    job: JobId,
+    sheet: SheetId,
     face: Face,
     shop: Shop,
     at: Annotated[Desk, Depends(desk)],
@@ -157,7 +159,7 @@ async def as_cut(
 
 
 @ROUTER.get("/jobs/{job}/transcripts", responses=READING)
-def transcripts(job: Id, shop: Shop, _: Viewer) -> list[str]:
+def transcripts(job: JobId, shop: Shop, _: Viewer) -> list[str]:
     """List the transcripts of a job: what went over the wire, the oldest first."""
     return [path.name for path in shop.places.transcripts(shop.desk.job(job).id)]
 
@@ -167,7 +169,7 @@ def transcripts(job: Id, shop: Shop, _: Viewer) -> list[str]:
     responses=READING | binary("application/jsonl", "One JSON object a line."),
     response_class=FileResponse,
 )
-def transcript(job: Id, name: Name, shop: Shop, _: Viewer) -> FileResponse:
+def transcript(job: JobId, name: Name, shop: Shop, _: Viewer) -> FileResponse:
     """Get what went over the wire, with times."""
     known = {path.name: path for path in shop.places.transcripts(shop.desk.job(job).id)}
     if name not in known:
@@ -180,7 +182,7 @@ def transcript(job: Id, name: Name, shop: Shop, _: Viewer) -> FileResponse:
     responses=READING | binary("application/octet-stream", "The file, as its name says."),
     response_class=FileResponse,
 )
-def file(job: Id, name: Name, shop: Shop, _: Viewer) -> FileResponse:
+def file(job: JobId, name: Name, shop: Shop, _: Viewer) -> FileResponse:
     """Get a file of the plan that a job is made from: plan.json has material and machine whole."""
     folder = shop.desk.plans.folder(shop.desk.job(job).plan)
     known = {path.name: path for path in folder.iterdir()}
