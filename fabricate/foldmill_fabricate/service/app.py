@@ -22,6 +22,7 @@ from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.security import Guard, Policy
 from foldmill_fabricate.service.storage import Storage
 from foldmill_fabricate.service.warming import warm
+from foldmill_fabricate.service.ways import Ways
 from foldmill_fabricate.service.workshop import Workshop
 
 ROUTERS = (
@@ -55,8 +56,9 @@ def create(
     for router in ROUTERS:
         app.include_router(router, prefix=PREFIX)
     app.include_router(health.ROUTER)
+    app.state.ways = Ways({PREFIX: ROUTERS, "": (health.ROUTER,)})
     problems.add_to(app)
-    app.add_middleware(Guard, policy=app.state.policy)
+    app.add_middleware(Guard, policy=app.state.policy, ways=app.state.ways)
     app.add_middleware(Watch, metrics=app.state.metrics)
     return app
 
