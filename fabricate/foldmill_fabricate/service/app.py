@@ -12,7 +12,7 @@ from fastapi import FastAPI
 from foldmill import installed
 from foldmill_fabricate.service import description, problems
 from foldmill_fabricate.service.desk import WORK, Desk
-from foldmill_fabricate.service.events import Followers
+from foldmill_fabricate.service.events import News
 from foldmill_fabricate.service.logs import PREFIX, Watch
 from foldmill_fabricate.service.metrics import Metrics, computing
 from foldmill_fabricate.service.planning import Plans
@@ -70,7 +70,8 @@ def _furnish(app: FastAPI, workshop: Workshop, policy: Policy, sandbox: Sandbox 
     app.state.policy, app.state.workshop, app.state.desk = policy, workshop, desk
     app.state.plans = Plans(desk, workshop.desk.plans)
     app.state.retention = Retention(storage, workshop.desk)
-    app.state.stopping, app.state.followers = asyncio.Event(), Followers()
+    app.state.stopping = asyncio.Event()
+    app.state.news = News(workshop, app.state.stopping)
     app.state.metrics = Metrics()
     app.state.metrics.ask(computing(lambda: desk.sandbox.load))
     app.state.metrics.ask(workshop.gauges.collect)
