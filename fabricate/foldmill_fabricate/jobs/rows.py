@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pydantic import ValidationError
-from sqlalchemy import Connection, Select, case, select
+from sqlalchemy import Connection, Select, case, func, select
 
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.states import ACTIVE, JobState
@@ -21,6 +21,9 @@ from foldmill_fabricate.plotter.ledger.writing import person as person
 WORKER = "foldmill"
 """Who does what no person does."""
 _LENGTH = 6
+
+_EVENTS = 0x666F6C64
+"""Names the lock of whoever numbers events, within a database."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,17 @@ def digest(asked: Submission) -> str:
 def is_same(row: Any, asked: Submission) -> bool:
     """Tell whether a job's row is of the same submission, by this version or an earlier one."""
     return row.content in {digest(asked), _earlier_digest(row.order, asked)}
+
+
+def number_in_order(at: Connection) -> None:
+    """Have the events of this transaction numbered in the order in which they can be read.
+
+    PostgreSQL gives a number before others see the row: whoever heard number 5 by then would miss
+    number 4. So one writes at a time, from here to the end of its transaction; SQLite does so
+    anyway.
+    """
+    if at.dialect.name == "postgresql":
+        at.execute(select(func.pg_advisory_xact_lock(_EVENTS)))
 
 
 def _earlier_digest(order: str, asked: Submission) -> str:

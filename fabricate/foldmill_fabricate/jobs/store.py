@@ -379,6 +379,7 @@ class JobStore:
 
     def _note(self, at: Connection, name: str, what: str, state: JobState, who: str) -> None:
         row = {"when": stamp(self._now()), "job": name, "who": who or rows.person(), "what": what}
+        rows.number_in_order(at)
         at.execute(insert(EVENTS).values(state=state.value, **row))
 
 

@@ -12,7 +12,7 @@ from fastapi import FastAPI
 from foldmill import installed
 from foldmill_fabricate.service import description, problems
 from foldmill_fabricate.service.desk import WORK, Desk
-from foldmill_fabricate.service.events import Followers
+from foldmill_fabricate.service.events import News
 from foldmill_fabricate.service.logs import PREFIX, Watch
 from foldmill_fabricate.service.metrics import Metrics, computing
 from foldmill_fabricate.service.planning import Plans
@@ -22,6 +22,7 @@ from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.security import Guard, Policy
 from foldmill_fabricate.service.storage import Storage
 from foldmill_fabricate.service.warming import warm
+from foldmill_fabricate.service.ways import Ways
 from foldmill_fabricate.service.workshop import Workshop
 
 ROUTERS = (
@@ -55,8 +56,9 @@ def create(
     for router in ROUTERS:
         app.include_router(router, prefix=PREFIX)
     app.include_router(health.ROUTER)
+    app.state.ways = Ways({PREFIX: ROUTERS, "": (health.ROUTER,)})
     problems.add_to(app)
-    app.add_middleware(Guard, policy=app.state.policy)
+    app.add_middleware(Guard, policy=app.state.policy, ways=app.state.ways)
     app.add_middleware(Watch, metrics=app.state.metrics)
     return app
 
@@ -68,7 +70,8 @@ def _furnish(app: FastAPI, workshop: Workshop, policy: Policy, sandbox: Sandbox 
     app.state.policy, app.state.workshop, app.state.desk = policy, workshop, desk
     app.state.plans = Plans(desk, workshop.desk.plans)
     app.state.retention = Retention(storage, workshop.desk)
-    app.state.stopping, app.state.followers = asyncio.Event(), Followers()
+    app.state.stopping = asyncio.Event()
+    app.state.news = News(workshop, app.state.stopping)
     app.state.metrics = Metrics()
     app.state.metrics.ask(computing(lambda: desk.sandbox.load))
     app.state.metrics.ask(workshop.gauges.collect)

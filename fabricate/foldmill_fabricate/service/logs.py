@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import re
 import sys
 import time
 from datetime import UTC, datetime
@@ -12,6 +13,7 @@ from typing import Any, TextIO
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from foldmill_fabricate.service.metrics import Metrics
+from foldmill_fabricate.service.tokens import MARK, TOKEN
 
 ACCESS = logging.getLogger("foldmill.access")
 PREFIX = "/api/v1"
@@ -22,6 +24,8 @@ _OWN = frozenset(vars(logging.makeLogRecord({}))) | {
     "color_message",
 }
 """What every record has, or uvicorn adds for terminals."""
+_UNSEEN = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff]")
+"""Control characters that JSON leaves as they are, and what no encoding can write."""
 
 
 class JsonLines(logging.Formatter):
@@ -38,7 +42,13 @@ class JsonLines(logging.Formatter):
         told |= {name: value for name, value in vars(record).items() if name not in _OWN}
         if record.exc_info:
             told["trace"] = self.formatException(record.exc_info)
-        return json.dumps(told, ensure_ascii=False, default=str)
+        return _plain(json.dumps(told, ensure_ascii=False, default=str))
+
+
+def _plain(line: str) -> str:
+    """Return a line without tokens, whoever wrote one where, and without what a terminal obeys."""
+    told = TOKEN.sub(f"{MARK}…", line)
+    return _UNSEEN.sub(lambda found: f"\\u{ord(found[0]):04x}", told)
 
 
 def configure(level: str = "INFO", stream: TextIO | None = None) -> None:

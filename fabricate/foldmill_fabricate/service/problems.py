@@ -147,6 +147,8 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     }
     answer = problem(error.status_code, said.get(error.status_code, str(error.detail)))
     answer.headers.update(error.headers or {})
+    if error.status_code == 405 and (known := request.app.state.ways.methods(request.url.path)):
+        answer.headers["allow"] = ", ".join(known)  # what was met first knows its own method only
     return answer
 
 

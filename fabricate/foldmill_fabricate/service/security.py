@@ -20,6 +20,7 @@ from foldmill_fabricate.service import problems
 from foldmill_fabricate.service.bounds import MOST_DRAWING, MOST_JSON, MOST_UPLOAD
 from foldmill_fabricate.service.problems import Forbidden, TooLarge
 from foldmill_fabricate.service.tokens import Tokens
+from foldmill_fabricate.service.ways import Ways
 
 UPLOADS = {
     "/api/v1/patterns": MOST_UPLOAD,
@@ -72,8 +73,8 @@ def _without_port(host: str) -> str:
 class Guard:
     """Refuses what must not be let in, before the application sees it."""
 
-    def __init__(self, app: ASGIApp, policy: Policy) -> None:
-        self._app, self._policy = app, policy
+    def __init__(self, app: ASGIApp, policy: Policy, ways: Ways) -> None:
+        self._app, self._policy, self._ways = app, policy, ways
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on, or answer with a problem."""
@@ -98,8 +99,9 @@ class Guard:
             )
         _refuse_foreign(method, host, headers)
         if method not in _SAFE:
-            _refuse_simple(headers)
             _refuse_large(path, headers)
+            if method in self._ways.methods(path):  # any other is told that it is not for the path
+                _refuse_simple(headers)
 
 
 def _refuse_foreign(method: str, host: str, headers: Mapping[str, str]) -> None:

@@ -31,7 +31,7 @@ from foldmill_fabricate.service.workshop import Workshop
 LOG = logging.getLogger("foldmill.service")
 GRACE = 2
 """s that requests under way have when the service ends."""
-MOST_AT_ONCE = 200
+MOST_AT_ONCE = 400
 """Requests; the next is refused, so that memory is bounded."""
 
 

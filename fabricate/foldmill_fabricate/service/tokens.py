@@ -19,6 +19,10 @@ from foldmill.errors import InvalidInput, UnknownName, UnreadableFile
 from foldmill_fabricate.files import write_whole
 
 FILE = "tokens.json"
+MARK = "foldmill_"
+"""What each begins with, so that it is known wherever it stands."""
+TOKEN = re.compile(rf"{MARK}[A-Za-z0-9_-]{{20,}}")
+"""A token, or most of one."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}")
 
 
@@ -77,7 +81,7 @@ class Tokens:
             )
         if any(token.name == name for token in self.every):
             raise InvalidInput(f"There is a token named {name!r}; revoke it first.")
-        secret = f"foldmill_{secrets.token_urlsafe(32)}"
+        secret = f"{MARK}{secrets.token_urlsafe(32)}"
         self._write([*self.every, Token(name, scope, _digest(secret))])
         return secret
 

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import count
 from pathlib import Path
+from threading import Event
 
 import pytest
 from fabricate.jobs import postgres
 from fabricate.jobs.workshop import workshop
 
-from foldmill_fabricate.jobs import Desk, JobState, Places, Submission
+from foldmill_fabricate.jobs import Desk, JobState, Places, Submission, rows
 from foldmill_fabricate.jobs.errors import Clash, JobRefused
 from foldmill_fabricate.jobs.host import Host
 from foldmill_fabricate.jobs.plotters import Plotter
@@ -69,3 +70,31 @@ def test_the_queue_keeps_its_order_and_its_keys(
 def test_a_computer_without_a_name_is_refused(tmp_path: Path, database: str) -> None:
     with pytest.raises(JobRefused, match="--host-name"):
         Host(Places(tmp_path, database), {})
+
+
+def test_no_event_is_missed_by_who_follows_while_many_write(tmp_path: Path, database: str) -> None:
+    desk, heard = Desk(Places(tmp_path, database), {}), list[int]()
+    store, rounds, over = desk.store, 40, Event()
+
+    def write(name: str) -> None:
+        for k in range(rounds):
+            store.prioritise(name, k)
+
+    def follow() -> None:
+        while True:
+            last = over.is_set()
+            heard.extend(each.number for each in store.events(heard[-1] if heard else 0))
+            if last:
+                return
+
+    about = rows.About(title="a", material="b", machine="c")
+    asked = Submission(plan="0" * 64, plotter="bench")
+    names = [store.submit(asked, about).id for _ in range(4)]
+    with ThreadPoolExecutor(5) as several:
+        following = several.submit(follow)
+        for each in [several.submit(write, name) for name in names]:
+            each.result()
+        over.set()
+        following.result()
+    desk.store.close()
+    assert len(heard) == len(set(heard)) == len(names) * (1 + rounds)

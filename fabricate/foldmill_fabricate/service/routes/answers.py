@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
-from fastapi import Request
+from fastapi import Header, Request
 
 from foldmill_fabricate.service.desk import Desk
 from foldmill_fabricate.service.models import Problem
@@ -28,6 +28,13 @@ _SAID = {
     500: "A fault of foldmill's.",
     503: "Too much is under way; try again.",
 }
+
+
+Declared = Annotated[
+    str,
+    Header(max_length=20, description="1. Without it only a body of application/json is taken."),
+]
+"""The header of ours that an upload needs which is no JSON: a browser asks before it sends it."""
 
 
 def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:

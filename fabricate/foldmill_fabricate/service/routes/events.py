@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 
 from foldmill_fabricate.service.callers import Viewer
-from foldmill_fabricate.service.events import Followers, follow
+from foldmill_fabricate.service.events import News, follow
 from foldmill_fabricate.service.ids import EventNumber, OneJob
 from foldmill_fabricate.service.routes.answers import READING, workshop
 from foldmill_fabricate.service.workshop import Workshop
@@ -20,15 +20,32 @@ Shop = Annotated[Workshop, Depends(workshop)]
 _MOST_S = 86_400.0
 
 
-async def _place(request: Request, _: Viewer, shop: Shop, job: OneJob = "") -> AsyncIterator[str]:
-    """Take a place among those who follow, before anything is answered; give the job's id."""
+class Following(NamedTuple):
+    """Who has taken a place among those who follow."""
+
+    job: str
+    """Id of the only one that is followed; empty for all."""
+    after: int
+    """Number of the event that was heard last."""
+
+
+async def _place(
+    request: Request,
+    _: Viewer,
+    shop: Shop,
+    job: OneJob = "",
+    after: Annotated[int, Query(ge=0, le=2**62, description="Number heard last.")] = 0,
+    last_event_id: EventNumber = "",
+) -> AsyncIterator[Following]:
+    """Take a place among those who follow, before anything is answered."""
     name = (await asyncio.to_thread(shop.desk.job, job)).id if job else ""
-    followers: Followers = request.app.state.followers
-    followers.enter()
+    heard = int(last_event_id) if last_event_id else after
+    news: News = request.app.state.news
+    await news.enter(heard)
     try:
-        yield name
+        yield Following(name, heard)
     finally:
-        followers.leave()
+        news.leave()
 
 
 @ROUTER.get(
@@ -39,12 +56,10 @@ async def _place(request: Request, _: Viewer, shop: Shop, job: OneJob = "") -> A
 async def events(
     request: Request,
     shop: Shop,
-    job: Annotated[str, Depends(_place)],
-    after: Annotated[int, Query(ge=0, le=2**62, description="Number heard last.")] = 0,
+    asked: Annotated[Following, Depends(_place)],
     seconds: Annotated[float, Query(ge=0, le=_MOST_S, description="How long.")] = 3600.0,
-    last_event_id: EventNumber = "",
 ) -> AsyncIterator[ServerSentEvent]:
     """Follow what happens to jobs, from the event after the one that was heard last on."""
-    heard = int(last_event_id) if last_event_id else after
-    async for event in follow(shop, heard, job, seconds, request.app.state.stopping):
+    state = request.app.state
+    async for event in follow(shop, state.news, asked.after, asked.job, seconds, state.stopping):
         yield event

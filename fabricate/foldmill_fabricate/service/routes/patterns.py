@@ -17,7 +17,14 @@ from foldmill_fabricate.service.models import (
     Upload,
 )
 from foldmill_fabricate.service.receiving import receive
-from foldmill_fabricate.service.routes.answers import CHANGING, READING, binary, desk, problems
+from foldmill_fabricate.service.routes.answers import (
+    CHANGING,
+    READING,
+    Declared,
+    binary,
+    desk,
+    problems,
+)
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
 ROUTER = APIRouter(tags=["patterns"])
@@ -47,6 +54,7 @@ async def upload(
     _: Submitter,
     response: Response,
     said: Annotated[Upload, Query()],
+    x_foldmill: Declared = "",  # noqa: ARG001 - looked at before any route is
 ) -> Pattern:
     """Upload a pattern: the body is the file, as JSON or as application/octet-stream."""
     async with at.folder() as folder:

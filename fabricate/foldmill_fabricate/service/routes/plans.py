@@ -5,7 +5,7 @@ from __future__ import annotations
 from mimetypes import guess_type
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Path, Query, Request, Response
+from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Response
 from fastapi.responses import FileResponse
 
 from foldmill_fabricate.foreign import Asked
@@ -25,6 +25,7 @@ from foldmill_fabricate.service.receiving import receive
 from foldmill_fabricate.service.routes.answers import (
     CHANGING,
     READING,
+    Declared,
     binary,
     desk,
     plans,
@@ -56,7 +57,11 @@ async def begin(request: PlanRequest, those: Those, _: Submitter, response: Resp
 
 @ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
 async def keep(
-    request: Request, those: Those, at: Annotated[Desk, Depends(desk)], _: Submitter
+    request: Request,
+    those: Those,
+    at: Annotated[Desk, Depends(desk)],
+    _: Submitter,
+    x_foldmill: Declared,  # noqa: ARG001 - looked at before any route is
 ) -> KeptPlan:
     """Keep a job folder that was planned elsewhere: the body is a ZIP file of it.
 
@@ -75,6 +80,7 @@ async def draw(
     at: Annotated[Desk, Depends(desk)],
     _: Submitter,
     asked: Annotated[Asked, Query()],
+    x_foldmill: Declared,  # noqa: ARG001 - looked at before any route is
 ) -> KeptPlan:
     """Plan an HP-GL drawing from elsewhere: the body is the file, and no byte of it is sent on.
 
@@ -85,6 +91,13 @@ async def draw(
         with (folder / "upload").open("wb") as file:
             await receive(request, file, MOST_DRAWING)
         return await those.draw(folder, asked)
+
+
+@ROUTER.get("/kept", include_in_schema=False)
+@ROUTER.get("/drawn", include_in_schema=False)
+def no_plan() -> None:
+    """Say that this is no plan's id; without, it would be looked at as one."""
+    raise HTTPException(405)
 
 
 @ROUTER.get("", responses=READING)
