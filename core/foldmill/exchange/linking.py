@@ -11,12 +11,15 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from foldmill.errors import UnreadableFile
+from foldmill.exchange.meshing import meshed, within
 from foldmill.pattern import Flags, Floats, Indices
 
 _TRIED = 200
 """Nearest vertices that a free end is tied to if it sees them."""
 _MOST_FILLED = 250
 """Vertices up to which all of a sheet is filled with flat lines where few do not do."""
+_MOST_TIED = 200
+"""Slits and holes up to which each is tied by lines of its own; more are meshed all at once."""
 _ALONG = 1e-9
 """Sine of the angle below which two lines run along each other."""
 
@@ -37,9 +40,13 @@ def links(
         return []
     main = max(groups, key=lambda k: float(np.ptp(points[edges[own == k]], axis=(0, 1)).prod()))
     core = ~loose & (own == main)
-    inside = _inside(points, edges[core], points)
+    inside = within(points, edges[core], points)
     leaves &= inside
     known = np.isin(np.arange(len(points)), edges[core])
+    if len(groups) > _MOST_TIED or leaves.sum() > 2 * _MOST_TIED:
+        made = meshed(points, edges, inside | known, core)
+        if made is not None:
+            return made
     is_cut = np.isin(letters, ["B", "C"])
     floating = [
         group == k
@@ -51,6 +58,9 @@ def links(
     try:
         return _tied(points, edges, known, floating, leaves & (group == main), loose, leaves)
     except UnreadableFile:
+        made = meshed(points, edges, inside | known, core)
+        if made is not None:
+            return made
         if len(known) > _MOST_FILLED:
             raise
         return _filled(points, edges, core)
@@ -82,25 +92,13 @@ def _filled(points: Floats, edges: Indices, core: Flags) -> list[tuple[int, int]
     one, two = np.triu_indices(len(used), 1)
     pairs = np.stack([used[one], used[two]], axis=1)
     middle = points[pairs].mean(axis=1)
-    pairs = pairs[_inside(middle, edges[core], points)]
+    pairs = pairs[within(middle, edges[core], points)]
     order = np.argsort(np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T), kind="stable")
     work = _Work(points, edges)
     for a, b in pairs[order].tolist():
         if work.sees(a, b):
             work.add(a, b)
     return work.made
-
-
-def _inside(spots: Floats, edges: Indices, points: Floats) -> Flags:
-    """Tell which spots lie within the sheet that lines between points enclose."""
-    import shapely
-
-    if not len(edges):
-        return np.zeros(len(spots), bool)
-    rings = shapely.polygonize(shapely.linestrings(points[edges]).tolist())
-    sheet = shapely.union_all(rings)
-    shapely.prepare(sheet)
-    return np.asarray(shapely.contains_xy(sheet, spots[:, 0], spots[:, 1]), bool)
 
 
 def _groups(count: int, edges: Indices) -> Indices:
