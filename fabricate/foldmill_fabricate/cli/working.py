@@ -30,6 +30,7 @@ def desk(more: Sequence[str]) -> tuple[Jobs, bool]:
     plotters are its own matter then.
     """
     from foldmill_fabricate.jobs import Desk, Places, plotters
+    from foldmill_fabricate.jobs.alone import is_worked_on
 
     places = Places()
     service = _service(places)
@@ -37,7 +38,8 @@ def desk(more: Sequence[str]) -> tuple[Jobs, bool]:
         if more:
             raise FoldmillError("A service runs: name its plotters where it is started.")
         return service, True
-    return Desk(places, plotters.read(more=more)), is_worked_on(places)
+    made = Desk(places, plotters.read(more=more))
+    return made, is_worked_on(places, made.store)
 
 
 def _service(places: Places) -> Jobs | None:
@@ -52,13 +54,6 @@ def _service(places: Places) -> Jobs | None:
         raise FoldmillError(MISSING) from None
     found = url or reached(places)
     return Client(found, os.environ.get(TOKEN, "")) if found else None
-
-
-def is_worked_on(places: Places) -> bool:
-    """Tell whether some process holds the host's lock."""
-    from foldmill_fabricate.plotter.holding import is_held
-
-    return is_held(places.lock)
 
 
 def work_here(more: Sequence[str], host_name: str, tell: Callable[[str], None]) -> None:

@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from foldmill_fabricate.jobs.errors import JobRefused
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.store import JobStore
-from foldmill_fabricate.plotter.holding import Held, Holder, locked
+from foldmill_fabricate.plotter.holding import Held, Holder, is_held, locked
 from foldmill_fabricate.plotter.ledger.sharing import Keep
 
 _REMEDY = (
@@ -16,6 +16,9 @@ _REMEDY = (
     "folder of its own."
 )
 _HOLDER = Holder("`foldmill serve` or `foldmill job work`", _REMEDY)
+
+_COMPUTER = "computer "
+"""What a computer's name begins with among the names it holds."""
 
 
 @contextmanager
@@ -43,7 +46,7 @@ def alone_in(store: JobStore, name: str, plotters: Iterable[str]) -> Iterator[Ke
     Two of one name would take each other's turns, and two with one plotter each other's jobs. Gives
     what holds them again after the server was started anew; that raises JobRefused, too.
     """
-    whole = {f"computer {name}": f"jobs as {name!r} with this database"}
+    whole = {f"{_COMPUTER}{name}": f"jobs as {name!r} with this database"}
     whole |= {plotter_name(one): f"the jobs of plotter {one!r}" for one in plotters}
 
     @contextmanager
@@ -61,6 +64,11 @@ def alone_in(store: JobStore, name: str, plotters: Iterable[str]) -> Iterator[Ke
         with telling():
             keep = stack.enter_context(store.ledger.reserved([*whole], _HOLDER))
         yield kept
+
+
+def is_worked_on(places: Places, store: JobStore) -> bool:
+    """Tell whether some process works on the jobs here, on any computer; asking changes nothing."""
+    return any(map(is_held, places.locks)) or store.ledger.is_any_reserved(_COMPUTER)
 
 
 def plotter_name(plotter: str) -> str:

@@ -85,6 +85,7 @@ class watching:  # noqa: N801
         self._thread = Thread(target=self._watch, name=f"wishes of {job}", daemon=True)
 
     def __enter__(self) -> Wish:
+        self._is_heard_out()  # what was wanted before counts from the first byte on
         self._thread.start()
         return self._wish
 
@@ -94,18 +95,24 @@ class watching:  # noqa: N801
 
     def _watch(self) -> None:
         while not self._over.wait(LOOK):
-            if self._shop.leaving.is_set():
-                self._wish.stop()
+            if self._is_heard_out():
                 return
-            try:
-                self._hear(self._shop.store.wish(self._job, self._token))
-            except Fenced:
-                self._wish.stop()  # who has the job now must not find its machine at work
-                return
-            except (JobRefused, LedgerFailed):
-                pass  # the work itself meets it, and says so
-            except Exception:  # a database that is away for a moment must not end the watch
-                _LOG.exception("wishes of job %s", self._job)
+
+    def _is_heard_out(self) -> bool:
+        """Hear what is wanted now; True where all is to stop, and nothing more is to be heard."""
+        if self._shop.leaving.is_set():
+            self._wish.stop()
+            return True
+        try:
+            self._hear(self._shop.store.wish(self._job, self._token))
+        except Fenced:
+            self._wish.stop()  # who has the job now must not find its machine at work
+            return True
+        except (JobRefused, LedgerFailed):
+            pass  # the work itself meets it, and says so
+        except Exception:  # a database that is away for a moment must not end the watch
+            _LOG.exception("wishes of job %s", self._job)
+        return False
 
     def _hear(self, wanted: str) -> None:
         if wanted == CANCEL:

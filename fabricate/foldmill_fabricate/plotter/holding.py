@@ -83,7 +83,7 @@ class Held(Exception):
 @contextmanager
 def locked(file: Path, holder: Holder, mode: int = 0o644) -> Iterator[None]:
     """Hold the lock of a file; raises Held, and OSError where it cannot be locked."""
-    lock = FileLock(file, timeout=_PATIENCE, mode=mode)
+    lock = FileLock(file, timeout=_PATIENCE, mode=mode, thread_local=False)
     try:
         lock.acquire()
     except Timeout:

@@ -12,7 +12,8 @@ from fabricate.half_made import PENS, job_of, left_half_made
 
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.jobs import JobStore, Places
-from foldmill_fabricate.plotter.ledger import Ledger, ledger_file, ledger_place
+from foldmill_fabricate.plotter.errors import Spoiled
+from foldmill_fabricate.plotter.ledger import Ledger, Said, Word, ledger_file, ledger_place
 from foldmill_fabricate.sending import open_job
 
 
@@ -94,6 +95,25 @@ def test_what_makes_no_sense_is_refused(
     found = foldmill("sheets", *words)
     assert found.code == 2
     assert told in " ".join(found.err.split())
+
+
+def test_a_sheet_that_is_being_cut_is_given_up_and_its_machine_stops(
+    half: tuple[str, Bench], foldmill: Run
+) -> None:
+    name, bench = half
+    ledger = Ledger(ledger_file())
+    number = next(k for k, one in enumerate(ledger.sheet(name).records) if one.doubtful)
+    record = ledger.record(name, number)
+    ledger.say(name, number, Said(Word.GO_ON, record.doubtful[0]))
+    run = ledger.claim(name, number, "dev")
+    told = foldmill("sheets", name, "--spoiled")
+    assert told.code == 0
+    words = " ".join(told.err.split())
+    assert f"{record.program.name} was under way: whoever sends it stops the machine now" in words
+    with pytest.raises(Spoiled):
+        run.advance(record.doubtful[0] + 2, 0)
+    ledger.close()
+    bench.leave()
 
 
 def test_sheets_are_in_the_database_that_jobs_are_in(

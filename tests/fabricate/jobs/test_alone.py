@@ -41,7 +41,6 @@ def test_beside_a_job_nobody_leads_its_machine_about_nor_sends_to_it(tmp_path: P
         port = ("--port", shop.port)
         commands = [
             ("send", str(shop.folder), *port),
-            ("frame", str(shop.folder), *port),
             ("register", str(shop.folder), *port),
             ("jog", "5", "5", *port, "--machine", MACHINE),
         ]

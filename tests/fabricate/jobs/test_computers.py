@@ -19,7 +19,8 @@ from fabricate.jobs.terminal import plain, said, typing
 from fabricate.jobs.workshop import PATIENCE, workshop
 from sqlalchemy import create_engine, text
 
-from foldmill_fabricate.jobs import JobState
+from foldmill_fabricate.jobs import JobState, Places
+from foldmill_fabricate.jobs.alone import is_worked_on
 from foldmill_fabricate.plotter.errors import PortUnavailable, Spoiled
 from foldmill_fabricate.plotter.holding import Held, Holder
 from foldmill_fabricate.plotter.ledger import Ledger, Program, State, words
@@ -163,6 +164,7 @@ def test_each_computer_has_a_name_and_plotters_that_no_other_has(
         ) as second:
             assert second.stdout is not None
             assert second.stdout.readline().startswith("At work on other")
+            assert is_worked_on(Places(tmp_path / "e", database), shop.at.store)
             shop.at.cancel(shop.job)
             end = time.monotonic() + PATIENCE
             while not shop.is_ended:
@@ -174,3 +176,4 @@ def test_each_computer_has_a_name_and_plotters_that_no_other_has(
         assert not shop.simulator.sheet.under_way
         shop.check_ledger()
         shop.end()
+        assert not is_worked_on(shop.places, shop.at.store)

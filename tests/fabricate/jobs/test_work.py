@@ -13,7 +13,7 @@ import pytest
 from foldmill_fabricate.jobs import Desk, JobState, Kind, Question, Reply, Submission
 from foldmill_fabricate.jobs.errors import Cancelled, Leave
 from foldmill_fabricate.jobs.proving import prove_elsewhere
-from foldmill_fabricate.jobs.work import Shop, work
+from foldmill_fabricate.jobs.work import Shop, watching, work
 from foldmill_fabricate.verify import read_folder
 
 PATIENCE = 60.0
@@ -83,6 +83,20 @@ def test_a_sheet_that_was_given_up_by_hand_is_asked_about_once_and_made_anew(
         assert another.kind is Kind.ANOTHER, another.text
         desk.answer(another.id, Reply())
         assert asked(desk, Kind.LOAD).sheet != gate.sheet
+
+
+def test_what_was_wanted_while_nobody_worked_is_heard_before_the_first_byte(
+    desk: Desk, plan: str
+) -> None:
+    name = desk.submit(Submission(plan=plan, plotter="bench")).id
+    desk.store.take("bench")
+    desk.pause(name)
+    job, token = desk.store.take("bench") or pytest.fail("a paused job keeps its plotter")
+    with watching(Shop(desk.store, desk.plans, desk.places, Event()), job.id, token) as wish:
+        assert wish.paused
+        assert desk.job(name).state is JobState.PAUSED
+    with watching(Shop(desk.store, desk.plans, desk.places, Event()), job.id, token - 1) as wish:
+        assert wish.stopped, "a hand that has lost the job moves nothing"
 
 
 def test_a_job_is_ended_while_its_plan_is_proved(job_folder: Path) -> None:

@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import signal
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,17 @@ def test_many_who_ask_at_once_disturb_neither_each_other_nor_who_begins(tmp_path
         for _ in range(5):
             with locked(file, JOB):
                 assert is_held(file)
-        assert any(any(one.result()) for one in asked)
+        assert {len(one.result()) for one in asked} == {2000}
+
+
+def test_a_lock_that_one_thread_took_is_let_go_by_another(tmp_path: Path) -> None:
+    """A service begins in its own thread, and is ended from the server's."""
+    file, held = tmp_path / "a.lock", ExitStack()
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(held.enter_context, locked(file, JOB)).result()
+    assert is_held(file)
+    held.close()
+    assert not is_held(file)
 
 
 def test_a_note_that_is_nonsense_is_left_out(tmp_path: Path) -> None:

@@ -92,6 +92,10 @@ class Ledger:
         """Tell whether some computer holds a name."""
         return sharing.is_reserved(self._engine, name)
 
+    def is_any_reserved(self, beginning: str) -> bool:
+        """Tell whether some computer holds a name that begins so."""
+        return sharing.is_any_reserved(self._engine, beginning)
+
     @property
     def file(self) -> Path | None:
         """The file it is in; None where it is in memory, or on a server."""

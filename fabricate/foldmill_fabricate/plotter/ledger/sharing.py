@@ -54,6 +54,16 @@ def is_reserved(engine: Engine, name: str) -> bool:
         return not at.execute(select(func.pg_try_advisory_xact_lock_shared(_key(name)))).scalar()
 
 
+def is_any_reserved(engine: Engine, beginning: str) -> bool:
+    """Tell whether another connection holds a name that begins so."""
+    if engine.dialect.name != "postgresql":
+        return False
+    with engine.connect() as at:
+        noted = select(HOLDERS.c.name).where(HOLDERS.c.name.startswith(beginning, autoescape=True))
+        names = at.execute(noted).scalars().all()
+    return any(is_reserved(engine, name) for name in names)
+
+
 class _Names:
     """Names that a connection of their own holds."""
 
