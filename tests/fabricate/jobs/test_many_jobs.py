@@ -135,7 +135,7 @@ def _quietly(call: Callable[[], object]) -> None:
 
 
 def test_all_jobs_end_right_and_no_plotter_has_two_at_once(tmp_path: Path, soak: Soak) -> None:
-    count, plotters = soak.size(6, 40), soak.size(2, 4)
+    count, plotters = soak.size(5, 40), soak.size(2, 4)
     with (
         soak.part("many_jobs", 7, count, "jobs"),
         _workshop(tmp_path, plotters) as (desk, benches, words),
