@@ -43,6 +43,8 @@ from foldmill_fabricate.plotter.simulator.servers import serve_tcp
 
 MACHINE = "generic-hpgl-600"
 SPEED_UP = 4.0
+PROVING = 5 * PATIENCE
+"""s of the wall in which something must happen: plans of all plotters may be proved at once."""
 AT_GATES = frozenset({Kind.LOAD, Kind.FLIP, Kind.REMOVE, Kind.RE_REGISTER})
 
 
@@ -93,10 +95,10 @@ class Person:
 
     def attend(self) -> None:
         """Answer until all jobs have ended; raises where nothing moves any more."""
-        moved, end = 0, time.monotonic() + PATIENCE
+        moved, end = 0, time.monotonic() + PROVING
         while not all(job.is_ended for job in self.desk.jobs()):
             if moved != (moved := self.desk.store.last_event()):
-                end = time.monotonic() + PATIENCE
+                end = time.monotonic() + PROVING
             assert time.monotonic() < end, self.desk.jobs()
             for question in self.desk.questions():
                 self._answer(question)
