@@ -139,7 +139,7 @@ def _quietly(call: Callable[[], object]) -> None:
 def test_all_jobs_end_right_and_no_plotter_has_two_at_once(tmp_path: Path, soak: Soak) -> None:
     count, plotters = soak.size(5, 40), soak.size(2, 4)
     with (
-        soak.part("many_jobs", 7, count, "jobs"),
+        soak.part("many_jobs", 7, count, "jobs") as progress,
         _workshop(tmp_path, plotters) as (desk, benches, words),
     ):
         chance, kept = random.Random(7), desk.keep(tmp_path / "job")
@@ -173,6 +173,7 @@ def test_all_jobs_end_right_and_no_plotter_has_two_at_once(tmp_path: Path, soak:
         assert sorted(made) == sorted(desk.job(name).sheets[0] for name in done)
         _one_at_a_time(desk, jobs)
         _the_urgent_first(desk, jobs, late)
+        progress.reached(count)
 
 
 @contextmanager
