@@ -111,10 +111,13 @@ class Engine:
             "application_version": _VERSION,
             "log_level": "ERROR",
             "enable_otlp": False,
+            "notification_coalesce_sec": 1.0,  # nothing waits for one: a hundredth is its default
         }
         self._lost: dict[str, float] = {}
         """When turns were first seen that nobody has, s, by their id."""
         self._away = ""
+        self._kept = True
+        """Whether turns may have ended that are still kept."""
         self._dispatcher = Thread(target=self._dispatch, name="dispatcher", daemon=True)
 
     def start(self) -> None:
@@ -147,8 +150,9 @@ class Engine:
         while not self._over.is_set():
             self._wake.clear()
             try:
-                self._give_turns(self._due())
-                self._forget_turns()
+                under_way = self._give_turns(self._due())
+                if under_way or self._kept:
+                    self._kept = self._forget_turns() or under_way
             except Exception as error:  # a database that is away must not end the service
                 self._say_away(error)
             else:
@@ -168,15 +172,17 @@ class Engine:
             _LOG.warning("jobs are begun again; what was in the way is over")
         self._away = ""
 
-    def _give_turns(self, due: Mapping[str, int]) -> None:
+    def _give_turns(self, due: Mapping[str, int]) -> bool:
+        """Give as many turns as are due; tell whether any is."""
         wanted = {name: count for name, count in due.items() if name in self._queues}
         for name, count in wanted.items():
             if count > 0:
                 for _ in range(count - self._given(name)):
                     DBOS.enqueue_workflow(name, _turn, name)
+        return any(wanted.values())
 
-    def _forget_turns(self) -> None:
-        """Keep nothing of turns that have ended: what they did stands in the store."""
+    def _forget_turns(self) -> bool:
+        """Forget turns that have ended: what they did stands in the store; tell whether any was."""
         ended = DBOS.list_workflows(
             queue_name=list(self._queues),
             status=["SUCCESS", "ERROR"],
@@ -186,6 +192,7 @@ class Engine:
         )
         if len(ended) == _OLD:
             DBOS.delete_workflows([one.workflow_id for one in ended])
+        return len(ended) == _OLD
 
     def _given(self, name: str) -> int:
         """Return how many turns of a queue wait or are under way."""

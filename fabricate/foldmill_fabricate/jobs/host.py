@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import tempfile
+from collections import Counter
 from collections.abc import Mapping
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -13,7 +14,7 @@ from pydantic import ValidationError
 
 from foldmill.errors import FoldmillError
 from foldmill.refusals import explain
-from foldmill_fabricate.jobs.alone import alone, alone_in, plotter_name
+from foldmill_fabricate.jobs.alone import alone, alone_in
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
 from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
 from foldmill_fabricate.jobs.hands import LOOK
@@ -91,11 +92,13 @@ class Host:
 
     def _due(self) -> dict[str, int]:
         self._keep()
-        for name in self.store.abandoned(self.plotters):
-            if not self.store.ledger.is_reserved(plotter_name(self.store.job(name).plotter)):
-                self.store.end_abandoned(name)
-        due = {f"plotter-{name}": count for name, count in self.store.due().items()}
-        return due | {PLANNING: len(self.store.jobs([JobState.PLANNING]))}
+        """Return how many jobs of each queue are due; those nobody can work on any more end."""
+        found = self.store.standing()
+        for job in found:
+            if job.is_abandoned(self.plotters):
+                self.store.end_abandoned(job.id)
+        due = Counter(f"plotter-{job.plotter}" for job in found if job.is_due)
+        return {**due, PLANNING: sum(job.state is JobState.PLANNING for job in found)}
 
     def _take(self, queue: str) -> str:
         try:

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, func, insert, select, update
+from sqlalchemy import Connection, insert, update
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
 from foldmill_fabricate.jobs import asking, rows
 from foldmill_fabricate.jobs.errors import Clash, JobRefused
+from foldmill_fabricate.jobs.reading import CANCEL as CANCEL
+from foldmill_fabricate.jobs.reading import PAUSE as PAUSE
+from foldmill_fabricate.jobs.reading import JobReader
 from foldmill_fabricate.jobs.states import ACTIVE, FOLLOWS, JobState
 from foldmill_fabricate.jobs.tables import EVENTS, JOB_SHEETS, JOBS, METADATA
 from foldmill_fabricate.jobs.values import (
     MOST_URGENT,
-    Event,
     JobRecord,
     Question,
     Reply,
@@ -25,14 +27,11 @@ from foldmill_fabricate.jobs.values import (
 from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
-from foldmill_fabricate.plotter.ledger.tables import SHEETS, connect, reading
+from foldmill_fabricate.plotter.ledger.tables import connect
 from foldmill_fabricate.plotter.ledger.writing import stamp
 
-PAUSE, CANCEL = "pause", "cancel"
-"""What a person may want of a job that has its plotter."""
 
-
-class JobStore:
+class JobStore(JobReader):
     """Jobs and the ledger of their sheets, in one database.
 
     place : a file, made where there is none, or an SQLAlchemy URL. now : the time on the wall.
@@ -82,10 +81,6 @@ class JobStore:
             return _same(known, asked, self)
         return self.job(name)
 
-    def _by_key(self, key: str) -> Any:
-        with reading(self._engine) as at:
-            return at.execute(select(JOBS).where(JOBS.c.key == key)).first()
-
     def planned(self, name: str, plan: str, about: rows.About) -> JobRecord:
         """Say which plan an ordered design has become; the job waits for its plotter from now on.
 
@@ -106,61 +101,6 @@ class JobStore:
             row = rows.job_row(at, name, lock=True)
             if row.state == JobState.PLANNING.value and row.note != why:
                 self._set(at, row, JobState.PLANNING, f"not planned yet: {why}", rows.WORKER, why)
-
-    # ── what there is ────────────────────────────────────────────────────────────────────────────
-
-    def job(self, name: str) -> JobRecord:
-        """Return a job; raises NoSuchJob."""
-        with reading(self._engine) as at:
-            return rows.record(at, rows.job_row(at, name))
-
-    def order(self, name: str) -> str:
-        """Return the order of a design as JSON; empty for a job of a plan."""
-        with reading(self._engine) as at:
-            return str(rows.job_row(at, name).order)
-
-    def jobs(
-        self, states: Sequence[JobState] = (), plotter: str = "", limit: int = 1000
-    ) -> list[JobRecord]:
-        """Return jobs, the newest first; states : only those that stand so."""
-        wanted = select(JOBS).order_by(JOBS.c.number.desc()).limit(limit)
-        if states:
-            wanted = wanted.where(JOBS.c.state.in_([state.value for state in states]))
-        if plotter:
-            wanted = wanted.where(JOBS.c.plotter == plotter)
-        with reading(self._engine) as at:
-            return [rows.record(at, row) for row in at.execute(wanted).all()]
-
-    def plans_needed(self) -> set[str]:
-        """Return the ids of the plans that a job, or the record of a sheet, refers to."""
-        with reading(self._engine) as at:
-            by_jobs = at.execute(select(JOBS.c.plan).distinct()).scalars().all()
-            by_sheets = at.execute(select(SHEETS.c.job).distinct()).scalars().all()
-        return {*by_jobs, *by_sheets} - {""}
-
-    def due(self) -> dict[str, int]:
-        """Return how many jobs of each plotter wait for it or have it."""
-        wanted = select(JOBS.c.plotter, JOBS.c.state, JOBS.c.begun)
-        waiting = {state.value for state in (JobState.SUBMITTED, *ACTIVE)}
-        found: dict[str, int] = {}
-        with reading(self._engine) as at:
-            for row in at.execute(wanted.where(JOBS.c.state.in_(waiting))):
-                if row.begun or row.state == JobState.SUBMITTED.value:
-                    found[row.plotter] = found.get(row.plotter, 0) + 1
-        return found
-
-    def events(self, after: int = 0, job: str = "", limit: int = 1000) -> list[Event]:
-        """Return what happened after an event, the oldest first."""
-        wanted = select(EVENTS).where(EVENTS.c.number > after).order_by(EVENTS.c.number)
-        if job:
-            wanted = wanted.where(EVENTS.c.job == job)
-        with reading(self._engine) as at:
-            return [rows.event(row) for row in at.execute(wanted.limit(limit)).all()]
-
-    def last_event(self) -> int:
-        """Return the number of the newest event; 0 for none."""
-        with reading(self._engine) as at:
-            return int(at.execute(select(func.max(EVENTS.c.number))).scalar() or 0)
 
     # ── what a person wants ──────────────────────────────────────────────────────────────────────
 
@@ -265,25 +205,6 @@ class JobStore:
             row = rows.job_row(at, name)
             self._note(at, row.id, what, JobState(row.state), rows.WORKER)
 
-    def wish(self, name: str, token: int) -> str:
-        """Return what a person wants of a job: pause, cancel, or nothing.
-
-        Raises Fenced for a hand that lost the job.
-        """
-        with reading(self._engine) as at:
-            row = at.execute(select(JOBS.c.wish, JOBS.c.token).where(JOBS.c.id == name)).one()
-        if row.token != token:
-            raise Fenced(f"Job {name} was taken over by another process; this one stops.")
-        return str(row.wish)
-
-    def abandoned(self, plotters: Collection[str]) -> list[str]:
-        """Return the jobs a person wants to end, begun on a plotter that is none of these."""
-        active = JOBS.c.state.in_([state.value for state in ACTIVE])
-        gone = JOBS.c.plotter.not_in(list(plotters))
-        wanted = select(JOBS.c.id).where(active, gone, JOBS.c.begun, JOBS.c.wish == CANCEL)
-        with reading(self._engine) as at:
-            return list(at.execute(wanted).scalars())
-
     def end_abandoned(self, name: str) -> None:
         """End a job that a person wants to end, and whose plotter is no longer there."""
         with self._engine.begin() as at:
@@ -308,16 +229,6 @@ class JobStore:
             self._set(at, row, waits, f"asks: {question.kind.value}", rows.WORKER, question.why)
         return made
 
-    def questions(self, job: str = "") -> list[Question]:
-        """Return what a person is asked now, of one job or of all."""
-        with reading(self._engine) as at:
-            return asking.open_ones(at, job)
-
-    def question(self, name: str) -> Question:
-        """Return a question that waits for its answer; raises NoSuchJob, Clash once it has it."""
-        with reading(self._engine) as at:
-            return asking.find(at, name)
-
     def answer(self, name: str, reply: Reply, who: str = "") -> None:
         """Answer a question, once; raises Clash where somebody has, NoSuchJob for no question."""
         with self._engine.begin() as at:
@@ -327,11 +238,6 @@ class JobStore:
             row = rows.job_row(at, question.job)
             what = f"answered: {question.kind.value}: {asking.told(question, reply)}"
             self._note(at, row.id, what, JobState(row.state), who)
-
-    def reply(self, name: str) -> tuple[Reply, str] | None:
-        """Return the answer to a question and who gave it; None while there is none."""
-        with reading(self._engine) as at:
-            return asking.reply(at, name)
 
     # ── parts of a transaction ───────────────────────────────────────────────────────────────────
 

@@ -17,6 +17,7 @@ from fastapi.sse import ServerSentEvent
 
 from foldmill_fabricate.jobs.states import ACTIVE
 from foldmill_fabricate.jobs.values import Event
+from foldmill_fabricate.plotter.errors import LedgerFailed
 from foldmill_fabricate.service.problems import NoSuch
 from foldmill_fabricate.service.sandbox import TooBusy
 from foldmill_fabricate.service.workshop import Workshop
@@ -79,7 +80,9 @@ class News:
             await asyncio.sleep(LOOK)
             try:
                 found = await asyncio.to_thread(_look, self._shop)
-            except Exception:  # a database that is away for a moment must not end it
+            except LedgerFailed:
+                continue  # who gives turns says so, once
+            except Exception:  # whatever it is must not end it
                 _LOG.exception("what happens could not be looked at")
                 continue
             self._see(found)
@@ -107,7 +110,13 @@ async def follow(
     yield ServerSentEvent(comment="following", retry=RETRY)
     while True:
         seen = news.seen
-        events = await asyncio.to_thread(shop.desk.store.events, after, job, _AT_ONCE)
+        try:
+            events = await asyncio.to_thread(shop.desk.store.events, after, job, _AT_ONCE)
+        except LedgerFailed:  # nothing is missed: it is looked again
+            if stopping.is_set():
+                return
+            await asyncio.sleep(LOOK)
+            continue
         for event in events:
             after = event.number
             yield _numbered(event)

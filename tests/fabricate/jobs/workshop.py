@@ -91,6 +91,25 @@ def drawn(simulator: Simulator) -> Counter[Line]:
     return found
 
 
+def rest(simulator: Simulator) -> None:
+    """Wait until a machine stands still: it executes what it has."""
+    end = time.monotonic() + PATIENCE
+    simulator.advance()
+    while not simulator.device.idle or simulator.queued:
+        assert time.monotonic() < end
+        time.sleep(0.02)
+        simulator.advance()
+
+
+def wanted(place: Path, *, blind: bool) -> Counter[Line]:
+    """Return all lines of a job, both faces: what is on a sheet that is made as planned."""
+    every = [each for strokes in paths(place, blind=blind).values() for each in strokes]
+    whole: Counter[Line] = Counter()
+    for face, way in every:
+        whole += lines(face, way)
+    return whole
+
+
 @cache
 def paths(place: Path, *, blind: bool) -> dict[str, list[tuple[Face, tuple[Spot, ...]]]]:
     """Return every stroke of a job by program: what is drawn when nothing goes wrong."""
@@ -105,6 +124,34 @@ def paths(place: Path, *, blind: bool) -> dict[str, list[tuple[Face, tuple[Spot,
         before[face] = len(strokes)
     bench.leave()
     return found
+
+
+def is_cut(simulator: Simulator, face: Face, way: tuple[Spot, ...]) -> int:
+    """Return how many lines of a stroke are on the sheet, in its order."""
+    there, count = drawn(simulator), 0
+    want: Counter[Line] = Counter()
+    for pair in pairwise(way):
+        want += lines(face, pair)
+        if want - there:
+            return count
+        count += 1
+    return count
+
+
+def seen(
+    simulator: Simulator, record: Record, strokes: list[tuple[Face, tuple[Spot, ...]]]
+) -> Reply:
+    """Say where a program goes on, as somebody who sees every line, inside a stroke too."""
+    last = record.runs[-1]
+    if last.acked == last.sent < len(strokes):
+        return Reply()  # nothing has left since somebody spoke: as it was said then
+    for k in range(last.acked, min(last.sent, len(strokes))):
+        done, whole = is_cut(simulator, *strokes[k]), len(strokes[k][1]) - 1
+        if done < whole:
+            return Reply(word="go on", stroke=k + 1, vertex=done)
+    if last.sent >= len(strokes):
+        return Reply(word="finished")
+    return Reply(word="go on", stroke=last.sent + 1)
 
 
 @dataclass
@@ -139,11 +186,7 @@ class Workshop:
         self.left: int | None = None
         self.cut_off = False
         self.loaded = ""
-        whole: Counter[Line] = Counter()
-        for strokes in paths(self.folder, blind=self.blind).values():
-            for face, way in strokes:
-                whole += lines(face, way)
-        self.truth = whole
+        self.truth = wanted(self.folder, blind=self.blind)
 
     def desk(self) -> Desk:
         """Return the verbs of jobs."""
@@ -243,12 +286,7 @@ class Workshop:
 
     def rest(self) -> None:
         """Wait until the machine stands still: it executes what it has."""
-        end = time.monotonic() + PATIENCE
-        self.simulator.advance()
-        while not self.simulator.device.idle or self.simulator.queued:
-            assert time.monotonic() < end
-            time.sleep(0.02)
-            self.simulator.advance()
+        rest(self.simulator)
 
     # ── what a person does and sees ──────────────────────────────────────────────────────────────
 
@@ -292,29 +330,10 @@ class Workshop:
 
     def is_cut(self, record: Record, stroke: int) -> int:
         """Return how many lines of a stroke are on the sheet, in its order."""
-        face, way = self.strokes(record)[stroke]
-        there, count = drawn(self.simulator), 0
-        want: Counter[Line] = Counter()
-        for pair in pairwise(way):
-            want += lines(face, pair)
-            if want - there:
-                return count
-            count += 1
-        return count
+        return is_cut(self.simulator, *self.strokes(record)[stroke])
 
     def _seen(self, record: Record) -> Reply:
-        """Say where it goes on, as somebody who sees every line, inside a stroke too."""
-        last = record.runs[-1]
-        strokes = self.strokes(record)
-        if last.acked == last.sent < len(strokes):
-            return Reply()  # nothing has left since somebody spoke: as it was said then
-        for k in range(last.acked, min(last.sent, len(strokes))):
-            done, whole = self.is_cut(record, k), len(strokes[k][1]) - 1
-            if done < whole:
-                return Reply(word="go on", stroke=k + 1, vertex=done)
-        if last.sent >= len(strokes):
-            return Reply(word="finished")
-        return Reply(word="go on", stroke=last.sent + 1)
+        return seen(self.simulator, record, self.strokes(record))
 
     def _chosen(self, record: Record) -> Reply:
         """Choose among what is doubtful, and remember what that makes of the sheet."""
