@@ -31,8 +31,8 @@ _FAR = 100_000
 """Nodes that are turned round at the most, so that a move does not take as long as a sheet."""
 _LOCAL = 2000
 """Nodes that are turned round to mend a kick, at the most."""
-_STRETCH = 16
-"""Strokes in each of the three runs that a kick swaps, at the most."""
+_SHORT, _STRETCH = 12, 16
+"""Strokes in each of the three runs that a kick swaps, at the most: on a small sheet, and else."""
 _HEAT = 6.0
 """Median hops by which a tour may become longer, at the most, when it is kicked for the first time;
 less and less until the last, by the square of the kicks that are left. Tried beside a fifth of a
@@ -117,7 +117,7 @@ def _kick(
     other end half of the time.
     """
     n = len(tour)
-    most = min(_STRETCH, (n // 2 - 2) // 3)
+    most = min(_STRETCH if n > 2 * _COLD else _SHORT, (n // 2 - 2) // 3)
     p = 2 * roll(dice, n // 2)
     cost = 0.0
     for k in range(4):  # the four hops, and the seams

@@ -19,14 +19,14 @@ KICKS = 18
 known, in less time than others take."""
 SMALL = 384
 """Strokes below which there are fewer per stroke, in proportion: few strokes are soon in order."""
-FEW_KICKS = 30
+FEW_KICKS = 60
 """Kicks per stroke of the smallest sheets."""
 MANY = 1000
 """Strokes beyond which there are fewer per stroke, by the root of their number: with the same time
 per kick, all kicks together grow more slowly than the sheet."""
 LEAST_KICKS = 200
 """Kicks at the least: with these every trial of five strokes was ordered as well as can be."""
-FEW_AT_MOST = 2000
+FEW_AT_MOST = 4000
 """Kicks up to which small sheets have FEW_KICKS per stroke."""
 
 
@@ -73,14 +73,20 @@ def _order(
     depot = [nowhere, nowhere if start is None else start]
     flat = np.ascontiguousarray(np.concatenate([ends.reshape(-1, 2), depot]))
     tour, at = first_tour(flat, returns)
-    improve(flat, at, _near(flat), tour, returns, _kicks(count) if kicks is None else kicks)
+    improve(
+        flat, at, _near(flat), tour, returns, _kicks(count, returns) if kicks is None else kicks
+    )
     return _from_depot(tour, at)
 
 
-def _kicks(count: int) -> int:
-    """Return how often strokes are kicked: alike with and without a compiler."""
+def _kicks(count: int, returns: bool = False) -> int:
+    """Return how often strokes are kicked: alike with and without a compiler.
+
+    Few strokes that return have two ends each to begin at, and are kicked twice as often.
+    """
     each = KICKS * min(1.0, count / SMALL, sqrt(MANY / count))
-    return max(int(each * count), min(FEW_KICKS * count, FEW_AT_MOST), LEAST_KICKS)
+    few = (1 + returns) * min(FEW_KICKS * count, FEW_AT_MOST)
+    return max(int(each * count), few, LEAST_KICKS)
 
 
 def _best_of_all(ends: Floats, start: Floats | None, returns: bool) -> list[tuple[int, bool]]:

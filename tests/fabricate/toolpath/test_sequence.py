@@ -24,7 +24,7 @@ import json, sys
 import numpy as np
 from foldmill_fabricate.toolpath import sequence
 ends = 100 * np.random.default_rng(5).random((25, 2, 2))
-found = [sequence.order(ends, np.zeros(2), returns=r) for r in (False, True)]
+found = [sequence.order(ends, np.zeros(2), returns=r, kicks=500) for r in (False, True)]
 many = 100 * np.random.default_rng(6).random((202, 1, 2)) + np.array([[[0, 0], [1, 2]]])
 found.append(sequence.order(many, None, kicks=10))
 print(json.dumps(found))
