@@ -43,11 +43,15 @@ def mate(tour: Any, pos: Any, a: int) -> int:
 def reverse(tour: Any, pos: Any, i: int, j: int) -> None:
     """Reverse the places from i to j, round the end of the array where j lies before i."""
     n = len(tour)
-    for _ in range((wrap(j - i, n) + 1) // 2):
-        one, other = tour[i], tour[j]
-        tour[i], tour[j] = other, one
-        pos[other], pos[one] = i, j
-        i, j = wrap(i + 1, n), wrap(j - 1, n)
+    left = (wrap(j - i, n) + 1) // 2
+    while left > 0:
+        run = min(left, n - i, j + 1)  # until an end of the array
+        for k in range(run):
+            one, other = tour[i + k], tour[j - k]
+            tour[i + k], tour[j - k] = other, one
+            pos[other], pos[one] = i + k, j - k
+        left -= run
+        i, j = wrap(i + run, n), wrap(j - run, n)
 
 
 @jit

@@ -13,7 +13,7 @@ linked with each other, and nothing is matched.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,10 +46,22 @@ def route(points: Floats, edges: Indices, start: Floats | None, corners: Corners
     """Return strokes over all edges, in order, the tool coming from ``start``.
 
     points : (V, 2) mm; edges : (E, 2), each to be drawn once, none without length; start : (2,) mm,
-    or None where the way to the first stroke does not count.
+    or None where the way to the first stroke does not count. The same drawing gives the same
+    strokes, in whatever order and direction its edges are given and its vertices are numbered.
     """
     if not len(edges):
         return Route((), 0.0)
+    listed = np.lexsort((points[:, 1], points[:, 0]))
+    number = np.argsort(listed)
+    sides = np.sort(number[edges], axis=1)
+    found = _route(points[listed], sides[np.lexsort(sides.T[::-1])], start, corners)
+    vertex = listed.tolist()
+    trails = tuple(tuple(vertex[place] for place in trail) for trail in found.trails)
+    return replace(found, trails=trails)
+
+
+def _route(points: Floats, edges: Indices, start: Floats | None, corners: Corners) -> Route:
+    """Return the strokes over edges that are listed by their places."""
     links = _Links(points, edges, start, corners)
     own = pieces.labels(edges)
     if own.max():

@@ -14,19 +14,19 @@ _FEW = 4
 """Strokes of which every order is tried: 384 at most."""
 NEAR = 8
 """Ends that are tried beside each end."""
-KICKS = 15
+KICKS = 18
 """Kicks per stroke at the most: 500 and 1,000 random lines end about 0.5 % above the best order
 known, in less time than others take."""
 SMALL = 384
 """Strokes below which there are fewer per stroke, in proportion: few strokes are soon in order."""
-FEW_KICKS = 30
+FEW_KICKS = 60
 """Kicks per stroke of the smallest sheets."""
 MANY = 1000
 """Strokes beyond which there are fewer per stroke, by the root of their number: with the same time
 per kick, all kicks together grow more slowly than the sheet."""
 LEAST_KICKS = 200
 """Kicks at the least: with these every trial of five strokes was ordered as well as can be."""
-FEW_AT_MOST = 2000
+FEW_AT_MOST = 4000
 """Kicks up to which small sheets have FEW_KICKS per stroke."""
 
 
@@ -42,8 +42,27 @@ def order(
     ends : (n, 2, 2) first and last point of each stroke, mm; start : (2,) where the tool is, None
     for anywhere; returns : whether a stroke leaves the tool where it began (an even number of
     repeats); kicks : how often the order is disturbed and mended again, by default up to KICKS per
-    stroke. The same input gives the same order.
+    stroke. The same strokes give the same way, in whatever order and direction they are given.
     """
+    listed, turned = _listed(ends)
+    placed = np.where(turned[:, None, None], ends[listed, ::-1], ends[listed])
+    way = _order(placed, start, returns, kicks)
+    return [(int(listed[k]), backwards != bool(turned[k])) for k, backwards in way]
+
+
+def _listed(ends: Floats) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return strokes by their places, from left to right, and which of these are turned for it."""
+    one, other = ends[:, 0], ends[:, 1]
+    turned = (one[:, 0] > other[:, 0]) | ((one[:, 0] == other[:, 0]) & (one[:, 1] > other[:, 1]))
+    flat = np.where(turned[:, None, None], ends[:, ::-1], ends).reshape(-1, 4)
+    listed = np.lexsort(flat.T[::-1])
+    return listed, turned[listed]
+
+
+def _order(
+    ends: Floats, start: Floats | None, returns: bool, kicks: int | None
+) -> list[tuple[int, bool]]:
+    """Return the order of strokes that are listed by their places."""
     count = len(ends)
     if count <= _FEW:
         return _best_of_all(ends, start, returns)
@@ -54,14 +73,20 @@ def order(
     depot = [nowhere, nowhere if start is None else start]
     flat = np.ascontiguousarray(np.concatenate([ends.reshape(-1, 2), depot]))
     tour, at = first_tour(flat, returns)
-    improve(flat, at, _near(flat), tour, returns, _kicks(count) if kicks is None else kicks)
+    improve(
+        flat, at, _near(flat), tour, returns, _kicks(count, returns) if kicks is None else kicks
+    )
     return _from_depot(tour, at)
 
 
-def _kicks(count: int) -> int:
-    """Return how often strokes are kicked: alike with and without a compiler."""
+def _kicks(count: int, returns: bool = False) -> int:
+    """Return how often strokes are kicked: alike with and without a compiler.
+
+    Few strokes that return have two ends each to begin at, and are kicked twice as often.
+    """
     each = KICKS * min(1.0, count / SMALL, sqrt(MANY / count))
-    return max(int(each * count), min(FEW_KICKS * count, FEW_AT_MOST), LEAST_KICKS)
+    few = (1 + returns) * min(FEW_KICKS * count, FEW_AT_MOST)
+    return max(int(each * count), few, LEAST_KICKS)
 
 
 def _best_of_all(ends: Floats, start: Floats | None, returns: bool) -> list[tuple[int, bool]]:

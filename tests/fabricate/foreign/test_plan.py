@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import numpy as np
@@ -10,16 +11,17 @@ import pytest
 import shapely
 from fabricate.bench import Bench
 from fabricate.half_made import KNIFE, LASER, ONE_TOOL, PENS, left_half_made
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from foldmill import CreasePattern
+from foldmill import CreasePattern, Fold
 from foldmill_fabricate import shelf
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.errors import CannotPlan, CannotSend, DoesNotFit
 from foldmill_fabricate.foreign import Drawing, Use, limits, plan_drawing, read, write_drawing
 from foldmill_fabricate.foreign.nesting import inside_first
 from foldmill_fabricate.foreign.plan import thinned
+from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Operation, Plan, Role, Stroke
@@ -83,6 +85,24 @@ def test_it_is_written_proved_and_cut_like_any_other_job(slug: str, tmp_path: Pa
     job, bench = open_job(tmp_path), Bench(plan)
     assert {one.state for one in send_job(job, bench.url, bench.hands)} == {State.DONE}
     bench.leave()
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.integers(5, 40), st.sampled_from([PENS, ONE_TOOL]), st.randoms(use_true_random=False))
+def test_lines_drawn_in_another_order_and_direction_make_the_same_programs(
+    count: int, slug: str, dice: Random
+) -> None:
+    rows = dice.sample(range(0, 4000, 10), count)
+    lines = [((x := dice.randrange(4000), y), (x + dice.randrange(1, 300), y)) for y in rows]
+    mixed = [dice.choice((each, each[::-1])) for each in dice.sample(lines, count)]
+    material, machine = shelf.material("pp-0.75"), shelf.machine(slug)
+    written = []
+    for each in (lines, mixed):
+        text = "".join(f"PU{a},{b};PD{c},{d};" for (a, b), (c, d) in each)
+        read_again = drawing(f"IN;SP1;{text}PU;SP0;".encode())
+        plan = plan_drawing(read_again, {1: Use.SCORE}, material, machine, **SMALL)
+        written.append(hpgl.write(plan, Fold(no_pattern())))
+    assert written[0] == written[1]
 
 
 def test_an_edited_program_is_not_sent(tmp_path: Path) -> None:

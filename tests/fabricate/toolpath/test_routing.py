@@ -86,6 +86,22 @@ def test_every_edge_is_drawn_once_in_as_few_strokes_as_can_be(
     assert len(found.trails) == sum(max(1, count // 2) for count in odd)
 
 
+@given(st.integers(0, 10_000), st.integers(4, 30), st.floats(0.2, 1.0), st.booleans())
+def test_a_drawing_that_is_numbered_in_another_way_is_drawn_alike(
+    seed: int, vertices: int, share: float, is_grid: bool
+) -> None:
+    points, edges = miura(3, 1 + vertices // 6) if is_grid else random_graph(seed, vertices, share)
+    dice = np.random.default_rng(seed)
+    number = dice.permutation(len(points))
+    mixed = dice.permuted(dice.permutation(number[edges]), axis=1)
+    placed = np.zeros_like(points)
+    placed[number] = points
+    kind = corners.fewest_turns() if seed % 2 else corners.free_turning()
+    one = ways(points, route(points, edges, np.zeros(2), kind))
+    other = ways(placed, route(placed, mixed, np.zeros(2), kind))
+    assert [way.tolist() for way in one] == [way.tolist() for way in other]
+
+
 @pytest.mark.parametrize("start", [None, np.zeros(2)])
 def test_a_drawing_in_one_piece_has_the_least_travel(start: np.ndarray | None) -> None:
     points, edges = miura(9, 12)

@@ -6,9 +6,12 @@ import json
 import os
 import subprocess
 import sys
+from random import Random
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from foldmill.kernels.jit import SWITCH
 from foldmill_fabricate.toolpath import sequence
@@ -21,8 +24,10 @@ import json, sys
 import numpy as np
 from foldmill_fabricate.toolpath import sequence
 ends = 100 * np.random.default_rng(5).random((25, 2, 2))
-both = [sequence.order(ends, np.zeros(2), returns=r) for r in (False, True)]
-print(json.dumps(both))
+found = [sequence.order(ends, np.zeros(2), returns=r, kicks=500) for r in (False, True)]
+many = 100 * np.random.default_rng(6).random((202, 1, 2)) + np.array([[[0, 0], [1, 2]]])
+found.append(sequence.order(many, None, kicks=10))
+print(json.dumps(found))
 """
 
 
@@ -58,6 +63,23 @@ def test_random_lines_end_within_four_per_cent_of_the_bound() -> None:
     way = sequence.order(ends, None)
     bound = travel_bound(list(ends), None)
     assert bound <= sequence.travelled(ends, None, way, False) <= 1.04 * bound
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(1, 40), st.booleans(), st.booleans(), st.randoms(use_true_random=False))
+def test_strokes_given_in_another_order_and_direction_are_drawn_the_same_way(
+    count: int, returns: bool, is_grid: bool, dice: Random
+) -> None:
+    ends = lines(count, seed=count)
+    if is_grid:  # hops of the same length in many places
+        ends = np.round(ends / 30) * 30
+    mixed = np.array([dice.choice((each, each[::-1])) for each in dice.sample(list(ends), count)])
+    one, other = [
+        [each[k, ::-1] if backwards else each[k] for k, backwards in way]
+        for each in (ends, mixed)
+        for way in [sequence.order(each, np.array([7.0, 3.0]), returns=returns, kicks=60)]
+    ]
+    np.testing.assert_array_equal(one, other)
 
 
 def test_kicks_per_stroke_fall_on_a_large_sheet() -> None:
