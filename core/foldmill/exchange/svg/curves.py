@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import acos, ceil, cos, pi, radians, sin, sqrt, tau
+from math import acos, ceil, cos, hypot, pi, radians, sin, sqrt, tau
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from foldmill.pattern import Floats
 
 _SHARE = 1 / 2000
 """Of a curve's length that a chord may stray from it: 0.04 mm on a quarter circle of 50 mm."""
+_NOTHING = 1e-9
+"""A radius or an arc's span below this, in units of the path, is none: its square is no number."""
 _MOST = 1000
 """Chords of one curve, whatever it is."""
 
@@ -68,10 +70,10 @@ def arc(
 ) -> Floats:
     """Return the chords' ends of an arc as SVG's path says it (its appendix B.2.4), tilt in deg."""
     rx, ry, phi = abs(rx), abs(ry), radians(tilt)
-    if rx == 0 or ry == 0 or begin == end:
+    dx, dy = (begin[0] - end[0]) / 2, (begin[1] - end[1]) / 2
+    if min(rx, ry, hypot(dx, dy)) < _NOTHING:
         return np.array([end], float)
     c, s = cos(phi), sin(phi)
-    dx, dy = (begin[0] - end[0]) / 2, (begin[1] - end[1]) / 2
     x, y = c * dx + s * dy, -s * dx + c * dy
     stretch = sqrt(max((x / rx) ** 2 + (y / ry) ** 2, 1.0))
     rx, ry = rx * stretch, ry * stretch

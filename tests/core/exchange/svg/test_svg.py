@@ -11,6 +11,7 @@ import pytest
 from foldmill import UnreadableFile
 from foldmill.exchange import svg
 from foldmill.exchange.drawing import Drawing
+from foldmill.exchange.svg import curves
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="x" {}>{}</svg>'
 PAGE = 'width="100mm" height="50mm" viewBox="0 0 100 50"'
@@ -360,3 +361,14 @@ def test_a_mile_of_spaces_is_read_in_one_go() -> None:
     with pytest.raises(UnreadableFile, match="no lines"):
         drawn(f'<path d="M0 0L10 0" stroke="{mile}"/>')
     assert drawn(line).looks[0].colour is None
+
+
+@pytest.mark.parametrize(
+    ("end", "rx", "ry"),
+    [((9.0, 5.0), 1e-320, 22.0), ((0.0, 5.0), 1e-320, 22.0), ((1e-300, 0.0), 1.0, 1.0)],
+)
+def test_an_arc_of_a_radius_or_a_span_that_is_nothing_is_a_straight_line(
+    end: tuple[float, float], rx: float, ry: float
+) -> None:
+    chords = curves.arc((0.0, 0.0), end, rx, ry, 26.0, large=True, sweep=False)
+    assert chords.tolist() == [list(end)]
