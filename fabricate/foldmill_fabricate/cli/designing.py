@@ -10,6 +10,7 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill.finding import has_errors
+from foldmill_fabricate.cli.figures import summary
 from foldmill_fabricate.cli.importing import PatternFile, load, with_file_options
 from foldmill_fabricate.cli.output import (
     AsJson,
@@ -190,26 +191,3 @@ def _describe(design: Design[Any], preset: str | None) -> str:
     head = f"{design.slug}: {design.title}\npresets: {', '.join(design.presets) or 'none'}\n"
     lines = [(f"--{row.name}", row.value, row.unit, row.bounds, row.about) for row in rows(values)]
     return head + table([("PARAMETER", "VALUE", "UNIT", "RANGE", ""), *lines])
-
-
-def summary(fold: Fold) -> dict[str, object]:
-    """Return figures of a fold that a person asks for first."""
-    import numpy as np
-
-    from foldmill import Assignment
-
-    pattern = fold.pattern
-    width, height = np.ptp(pattern.vertices, axis=0)
-    rare = {"unassigned": Assignment.U, "inner_cuts": Assignment.C}
-    found: dict[str, object] = {
-        "vertices": len(pattern.vertices),
-        "faces": len(pattern.faces),
-        "mountains": pattern.count(Assignment.M),
-        "valleys": pattern.count(Assignment.V),
-        "flats": pattern.count(Assignment.F),
-        **{name: pattern.count(each) for name, each in rare.items() if pattern.count(each)},
-        "pattern_mm": f"{width:.1f} × {height:.1f}",
-    }
-    if fold.folded is not None:
-        found["folded_mm"] = " × ".join(f"{s:.1f}" for s in np.ptp(fold.folded.vertices, axis=0))
-    return found

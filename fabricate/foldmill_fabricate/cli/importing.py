@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from foldmill import FoldmillError, UnreadableFile
+from foldmill_fabricate.cli.figures import summary
 from foldmill_fabricate.cli.output import AsJson, exit_code, figure_lines, finding_data, say
 
 if TYPE_CHECKING:
@@ -177,7 +178,6 @@ def convert(
 ) -> None:
     """Convert anybody's crease pattern to a .fold file, and say what was changed on the way."""
     from foldmill.exchange import write
-    from foldmill_fabricate.cli.designing import summary
     from foldmill_fabricate.cli.output import finding_lines
     from foldmill_fabricate.files import write_whole
 

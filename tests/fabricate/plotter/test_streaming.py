@@ -11,7 +11,7 @@ from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.link import clock_of
 from foldmill_fabricate.plotter.program import instructions
 from foldmill_fabricate.plotter.sender import Delivery, Status
-from foldmill_fabricate.plotter.simulator.hp import OVERLAP
+from foldmill_fabricate.plotter.simulator.firmware import OVERLAP
 from foldmill_fabricate.plotter.simulator.trial import Trial, fine_lines, stream
 
 Make = Callable[..., Machine]

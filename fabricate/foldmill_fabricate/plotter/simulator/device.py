@@ -5,7 +5,7 @@ What the bytes mean is the business of its firmware; this is the frame that all 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import inf
 from random import Random
 
@@ -14,10 +14,7 @@ from foldmill_fabricate.plotter.simulator.buffer import InputBuffer, Traffic
 from foldmill_fabricate.plotter.simulator.carriage import Carriage
 from foldmill_fabricate.plotter.simulator.drawing import DrawnSheet
 from foldmill_fabricate.plotter.simulator.faults import Fault, Schedule, Trouble
-from foldmill_fabricate.plotter.simulator.firmware import Firmware, Plain
-from foldmill_fabricate.plotter.simulator.gpgl import GpglFirmware
-from foldmill_fabricate.plotter.simulator.grbl import GrblFirmware
-from foldmill_fabricate.plotter.simulator.hp import FRAMING, HpFirmware
+from foldmill_fabricate.plotter.simulator.firmware import FRAMING, Firmware, Plain
 from foldmill_fabricate.plotter.simulator.hpgl import LEVER_UP
 from foldmill_fabricate.plotter.simulator.quirks import Quirk, habits
 from foldmill_fabricate.plotter.simulator.uart import Transmitter
@@ -34,11 +31,13 @@ class Device:
         self,
         machine: Machine,
         sheet: DrawnSheet,
+        firmware: Callable[[Device, frozenset[Quirk]], Firmware],
         byte_time: float,
         speed_up: float = 1.0,
         faults: Iterable[Fault] = (),
         quirks: Iterable[Quirk] = (),
     ) -> None:
+        """Build it; firmware : makes what takes its bytes, of the device and its quirks."""
         self.machine, self.traffic = machine, Traffic()
         self.buffer = InputBuffer(machine.serial.buffer, self.traffic)
         self.carriage = Carriage(machine, sheet)
@@ -55,12 +54,7 @@ class Device:
         self._rest: dict[str, float] = {}
         """Why the carriage is halted within a line → s of that line still to come."""
         self._damage: dict[Trouble, int] = {}
-        self.firmware = self._firmware(frozenset(quirks) | habits(machine))
-
-    def _firmware(self, quirks: frozenset[Quirk]) -> Firmware:
-        if self.machine.language == "gcode":
-            return GrblFirmware(self)
-        return GpglFirmware(self) if self.machine.language == "gp-gl" else HpFirmware(self, quirks)
+        self.firmware = firmware(self, frozenset(quirks) | habits(machine))
 
     @property
     def size(self) -> int:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
+OVERLAP, FRAMING, OVERFLOW = 10, 15, 16
+"""What went wrong on the line, by the numbers that HP's machines answer to ESC.E."""
+
 
 class Plain(NamedTuple):
     """What a machine now takes off the line without anything else happening."""

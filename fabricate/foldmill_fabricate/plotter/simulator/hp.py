@@ -15,16 +15,13 @@ from foldmill_fabricate.plotter.simulator.control import (
     Command,
     ControlChannel,
 )
-from foldmill_fabricate.plotter.simulator.firmware import Plain
+from foldmill_fabricate.plotter.simulator.firmware import OVERFLOW, OVERLAP, Plain
 from foldmill_fabricate.plotter.simulator.hpgl import Hpgl
 from foldmill_fabricate.plotter.simulator.parser import ENDS, UNKNOWN, Parser
 from foldmill_fabricate.plotter.simulator.quirks import Quirk
 
 if TYPE_CHECKING:
     from foldmill_fabricate.plotter.simulator.device import Device
-
-OVERLAP, FRAMING, OVERFLOW = 10, 15, 16
-"""I/O errors, as ESC.E answers them."""
 
 _LAST_CHARACTER = 126
 _ANSWER_TIME = 0.002

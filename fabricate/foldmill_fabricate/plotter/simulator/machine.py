@@ -14,6 +14,7 @@ from foldmill_fabricate.plotter.simulator.agreement import XOFF, XON
 from foldmill_fabricate.plotter.simulator.device import Device
 from foldmill_fabricate.plotter.simulator.drawing import PERFECT, DrawnSheet, Imperfection
 from foldmill_fabricate.plotter.simulator.faults import Fault
+from foldmill_fabricate.plotter.simulator.firmwares import firmware_of
 from foldmill_fabricate.plotter.simulator.gauge import Gauge
 from foldmill_fabricate.plotter.simulator.modem import Modem, Wiring
 from foldmill_fabricate.plotter.simulator.quirks import Quirk
@@ -47,7 +48,7 @@ class Simulator:
         self.clock = clock or VirtualClock()
         self.sheets = [DrawnSheet(imperfection=imperfection)]
         byte_time = 10 / machine.serial.baud
-        self.device = Device(machine, self.sheet, byte_time, speed_up, faults, quirks)
+        self.device = Device(machine, self.sheet, firmware_of, byte_time, speed_up, faults, quirks)
         self.modem = Modem(self.device, wiring)
         """The handshake lines."""
         self.line = Transmitter(byte_time)
