@@ -11,6 +11,7 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill_fabricate.cli.importing import PatternFile, imported, with_file_options
+from foldmill_fabricate.cli.layout import table
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -18,7 +19,6 @@ from foldmill_fabricate.cli.output import (
     finding_data,
     finding_lines,
     say,
-    table,
 )
 
 if TYPE_CHECKING:
