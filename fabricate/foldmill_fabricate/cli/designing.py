@@ -81,7 +81,9 @@ def design(
         save(marked(fold, found), output)
     data = {**summary(fold), "findings": finding_data(found)}
     say(as_json, data, "\n".join([figure_lines(summary(fold)), finding_lines(found)]).rstrip())
-    if output is not None and has_errors(found) and not force:
+    if output is None:
+        typer.echo(f"Nothing is written; -o {family}.fold writes it.", err=True)
+    elif has_errors(found) and not force:
         typer.echo("It does not fold, so nothing is written; --force writes it, marked.", err=True)
     exit_code(found)
 

@@ -45,6 +45,13 @@ def hanging(text: str, indent: str, width: int | None = None) -> str:
     return "\n".join(part for line in lines for part in line)
 
 
+def moment(when: str) -> str:
+    """Return a time of day as people read it: 2026-11-22 19:54:40 UTC, from ISO 8601."""
+    from datetime import UTC, datetime
+
+    return f"{datetime.fromisoformat(when).astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC"
+
+
 def _wrapped(text: str, width: int, indent: str = "") -> list[str]:
     """Return lines between whose words alone they are broken: a name stays one."""
     return wrap(
