@@ -57,14 +57,22 @@ class UnreadableFile(InvalidInput):
     """A file that cannot be read as what it claims to be."""
 
 
+_FEW = 5
+"""Names that are read at a glance; among more of them the nearest is named."""
+
+
 class UnknownName(FoldmillError, LookupError):
     """A name that nobody offers."""
 
     @classmethod
     def of(cls, kind: str, name: str, known: Iterable[object]) -> UnknownName:
-        """Say which names there are, so that the next try succeeds."""
-        names = ", ".join(sorted(str(each) for each in known)) or "none"
-        return cls(f"There is no {kind} {name!r}. There are: {names}.")
+        """Say which names there are, and which is near, so that the next try succeeds."""
+        from difflib import get_close_matches
+
+        names = sorted(str(each) for each in known)
+        near = get_close_matches(name, names, 1) if len(names) > _FEW else []
+        meant = f" Did you mean {near[0]!r}?" if near else ""
+        return cls(f"There is no {kind} {name!r}. There are: {', '.join(names) or 'none'}.{meant}")
 
 
 class PluginFault(FoldmillError, TypeError):

@@ -227,7 +227,9 @@ class _Work:
             request = bench.request(gate, self.part.face, setup)
             answer = bench.operator.ready(request)
             if answer is None:
-                raise CannotSend(f"Stopped before {self.part.name}, as the operator said.")
+                raise CannotSend(
+                    f"Stopped before {self.part.name}, as the operator said. Send again to go on."
+                )
             gates.check(request, answer)
             if answer.marks:
                 bench.job, bench.marks_seen = bench.job.fitted(answer.marks), True

@@ -93,8 +93,9 @@ def due(setup: SetUp, plan: Plan, *, returned: bool, begun: bool) -> tuple[Gate,
 
 def check(request: Request, answer: Answer) -> None:
     """Raise CannotSend, with the sentence, for an answer with which nothing may be cut."""
-    if request.needs_id and answer.sheet.strip().upper() != request.sheet:
-        named = answer.sheet.strip().upper() or "none"
+    named = answer.sheet.strip().upper()
+    if (named or request.needs_id) and named != request.sheet:
+        named = named or "none"
         raise CannotSend(
             f"The sheet on the machine is to be {request.sheet}, and the id that was read off it "
             f"is {named}. Take the sheet that says {request.sheet}, or send with --sheet for the "

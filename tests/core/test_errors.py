@@ -41,3 +41,11 @@ def test_an_unknown_name_comes_with_the_known_ones() -> None:
         "There is no family 'tuk'. There are: rotational, tuck."
     )
     assert str(errors.UnknownName.of("port", "x", [])).endswith("There are: none.")
+
+
+def test_among_many_names_the_nearest_is_named() -> None:
+    known = [f"roll-{width}" for width in range(600, 1300, 100)]
+    assert str(errors.UnknownName.of("machine", "rol-900", known)).endswith(
+        "Did you mean 'roll-900'?"
+    )
+    assert str(errors.UnknownName.of("machine", "laser", known)).endswith("roll-900.")

@@ -114,6 +114,13 @@ def test_two_half_done_sheets_are_never_swapped(gate: Gate) -> None:
             check(request(gate), Answer(sheet=wrong))
 
 
+@pytest.mark.parametrize("gate", [Gate.LOAD, Gate.TOOL, Gate.REMOVE])
+def test_who_answers_beside_the_wrong_machine_is_told_by_the_id_they_give(gate: Gate) -> None:
+    check(request(gate), Answer())
+    with pytest.raises(CannotSend, match="and the id that was read off it is 93ZM"):
+        check(request(gate), Answer(sheet="93zm"))
+
+
 def test_the_wrong_sheet_at_the_flip_is_not_cut(job: Job, bench: Bench, ledger: Ledger) -> None:
     (_, one) = send_job(job, bench.url, bench.hands, FRONT, ledger=ledger)
     (_, two) = send_job(job, bench.url, bench.hands, FRONT, ledger=ledger, sheet=NEW)

@@ -9,7 +9,7 @@ from pathlib import Path
 from stools import machine, material, stool, stool_plan
 
 from foldmill_fabricate import presets
-from foldmill_fabricate.cli.making import RegistrationChoice
+from foldmill_fabricate.cli.choices import RegistrationChoice
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plan import make
 

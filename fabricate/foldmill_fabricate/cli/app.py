@@ -6,6 +6,7 @@ the commands, so that ``foldmill --help`` is quick.
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import Annotated, Any
 
@@ -77,14 +78,13 @@ serving.add_to(app)
 def main() -> None:
     """Run the command line; expected failures end as one sentence on standard error."""
     try:
-        code = app(standalone_mode=False)
+        code = app(prog_name="foldmill", standalone_mode=False)
     except FoldmillError as error:
         _stop(str(error))
     except BrokenPipeError:
         sys.stderr.close()  # the reader of our output has gone; that is no fault
     except OSError as error:
-        place = f"{error.filename}: " if error.filename else ""
-        _stop(f"{place}{(error.strerror or str(error)).lower()}.")
+        _stop(_of_the_disk(error))
     except typer.Abort:
         typer.echo("Aborted.", err=True)
         sys.exit(1)
@@ -104,7 +104,26 @@ def _refuse_use(error: Any) -> None:
         error.show()
         sys.exit(2)
     command = context.command_path if context else "foldmill"
-    _stop(f"{said.rstrip('.')}. `{command} --help` tells what there is.")
+    said = _NUMBER.sub(r"write \1 in digits, without its unit", said.replace("Value error, ", ""))
+    said = said if said.endswith(("?", ".")) else f"{said}."
+    _stop(f"{said} `{command} --help` tells what there is.")
+
+
+_NUMBER = re.compile(r"Input should be a valid (number|integer), unable to parse string as an? \w+")
+"""What the reader of options says of what is no number."""
+_REMEDIES: dict[type[OSError], str] = {
+    FileNotFoundError: " Check its name, and in which folder you are.",
+    FileExistsError: " A file stands where a folder is to be: name another.",
+    IsADirectoryError: " Name a file in it.",
+    NotADirectoryError: " A part of its name is a file.",
+    PermissionError: " You may not read or write there: name another place.",
+}
+
+
+def _of_the_disk(error: OSError) -> str:
+    """Return what a disk refused, where, and what to do."""
+    place = f"{error.filename}: " if error.filename else ""
+    return f"{place}{(error.strerror or str(error)).lower()}.{_REMEDIES.get(type(error), '')}"
 
 
 def _stop(sentence: str) -> None:

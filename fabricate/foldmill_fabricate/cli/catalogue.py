@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from foldmill_fabricate.cli.output import AsJson, say, table
+from foldmill_fabricate.cli.layout import table
+from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
     from foldmill_fabricate.machines import Machine
@@ -111,7 +112,7 @@ def described(preset: Sourced) -> str:
     """Return every field of a preset with its unit and where its value comes from."""
     from foldmill_fabricate.presets import rows, shown
 
-    told = [(row, f"{shown(row.value)} {row.unit}".strip()) for row in rows(preset)]
+    told = [(row, _with_unit(shown(row.value), row.unit)) for row in rows(preset)]
     lines = [("FIELD", "VALUE", "SOURCE")]
     lines += [
         (row.name, value, preset.sources.get(row.name, ""))
@@ -120,6 +121,11 @@ def described(preset: Sourced) -> str:
     ]
     texts = [f"{row.name}: {value}" for row, value in told if len(value) > LONG]
     return "\n".join([table(lines), *texts])
+
+
+def _with_unit(value: str, unit: str) -> str:
+    """Return a value and its unit; what has none is a dash alone."""
+    return value if value == "-" else f"{value} {unit}".strip()
 
 
 def profiles(show: Show = None, as_json: AsJson = False) -> None:

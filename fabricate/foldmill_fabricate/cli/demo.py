@@ -10,9 +10,10 @@ from foldmill import Fold, installed
 from foldmill.check import check
 from foldmill.finding import has_errors
 from foldmill_fabricate import folder, pictures
+from foldmill_fabricate.cli.account import describe
 from foldmill_fabricate.cli.demo_job import make_job
 from foldmill_fabricate.cli.designing import save
-from foldmill_fabricate.cli.making import describe, presets
+from foldmill_fabricate.cli.making import presets
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.files import write_whole

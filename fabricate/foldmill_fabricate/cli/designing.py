@@ -12,6 +12,7 @@ from foldmill import FoldmillError
 from foldmill.finding import has_errors
 from foldmill_fabricate.cli.figures import summary
 from foldmill_fabricate.cli.importing import PatternFile, load, with_file_options
+from foldmill_fabricate.cli.layout import table
 from foldmill_fabricate.cli.output import (
     AsJson,
     exit_code,
@@ -20,7 +21,6 @@ from foldmill_fabricate.cli.output import (
     finding_lines,
     report_text,
     say,
-    table,
 )
 
 if TYPE_CHECKING:
@@ -82,7 +82,9 @@ def design(
         save(marked(fold, found), output)
     data = {**summary(fold), "findings": finding_data(found)}
     say(as_json, data, "\n".join([figure_lines(summary(fold)), finding_lines(found)]).rstrip())
-    if output is not None and has_errors(found) and not force:
+    if output is None:
+        typer.echo(f"Nothing is written; -o {family}.fold writes it.", err=True)
+    elif has_errors(found) and not force:
         typer.echo("It does not fold, so nothing is written; --force writes it, marked.", err=True)
     exit_code(found)
 
@@ -185,9 +187,18 @@ def _bytes(fold: Fold, file: Path) -> bytes:
 
 
 def _describe(design: Design[Any], preset: str | None) -> str:
+    """Return a family's parameters as help; what was told of one before is named, not repeated."""
+    from shutil import get_terminal_size
+
     from foldmill_fabricate.cli.parameters import rows
 
     values = design.preset(preset) if preset else design.params()
     head = f"{design.slug}: {design.title}\npresets: {', '.join(design.presets) or 'none'}\n"
-    lines = [(f"--{row.name}", row.value, row.unit, row.bounds, row.about) for row in rows(values)]
-    return head + table([("PARAMETER", "VALUE", "UNIT", "RANGE", ""), *lines])
+    told: dict[str, str] = {}
+    lines = []
+    for row in rows(values):
+        first = told.setdefault(row.about, row.name)
+        about = row.about if first == row.name or not row.about else f"as --{first}"
+        lines.append((f"--{row.name}", row.value, row.unit, row.bounds, about))
+    heads = ("PARAMETER", "VALUE", "UNIT", "RANGE", "")
+    return head + table([heads, *lines], get_terminal_size().columns)

@@ -10,7 +10,8 @@ import typer
 
 from foldmill.finding import has_errors
 from foldmill_fabricate.cli.designing import save
-from foldmill_fabricate.cli.output import AsJson, finding_lines, say, table
+from foldmill_fabricate.cli.layout import table
+from foldmill_fabricate.cli.output import AsJson, finding_lines, say
 from foldmill_fabricate.cli.progress import SweepProgress
 from foldmill_fabricate.errors import CannotExplore
 

@@ -9,7 +9,8 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill_fabricate.cli.importing import load, with_file_options
-from foldmill_fabricate.cli.output import AsJson, say, table
+from foldmill_fabricate.cli.layout import table
+from foldmill_fabricate.cli.output import AsJson, say
 
 
 def add_to(app: typer.Typer) -> None:

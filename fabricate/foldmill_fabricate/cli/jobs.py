@@ -8,13 +8,16 @@ import typer
 
 from foldmill import FoldmillError
 from foldmill.errors import InvalidInput
+from foldmill_fabricate.cli.asking import told
+from foldmill_fabricate.cli.layout import hanging, moment
 from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from foldmill_fabricate.jobs import JobRecord, Jobs, Question, Submission
+    from foldmill_fabricate.jobs import JobRecord, Jobs, Submission
+    from foldmill_fabricate.jobs.values import Happening
 
 V = TypeVar("V", bound="BaseModel")
 jobs = typer.Typer(
@@ -26,7 +29,7 @@ More = Annotated[
     list[str] | None,
     typer.Option("--plotter", help="A plotter beside those of plotters.toml: NAME=PORT@MACHINE."),
 ]
-_IDLE = "nobody works on jobs now"
+_NOBODY = "Nobody works on jobs now: start `foldmill serve`, or `foldmill job work`."
 Who = Annotated[str, typer.Option(help="Who says so; default: whoever is at the computer.")]
 
 
@@ -75,12 +78,9 @@ def submit(
     head: dict[str, Any] = {"plotter": on, "copies": copies, "priority": priority, "key": key}
     asked = _submission(**wanted(desk, what, on, words), **head)
     job = desk.submit(asked, who)
-    say(as_json, job.model_dump(mode="json"), _line(job))
+    say(as_json, job.model_dump(mode="json"), told(job))
     if not works and not as_json:
-        typer.echo(
-            "It waits: nobody works on jobs now. Start `foldmill serve`, or `foldmill job work`.",
-            err=True,
-        )
+        typer.echo(f"It waits. {_NOBODY}", err=True)
 
 
 @jobs.command(name="list")
@@ -92,13 +92,15 @@ def list_jobs(
     """List jobs, the newest first, and what people are asked."""
     from foldmill_fabricate.jobs.states import ENDED, JobState
 
-    desk, _ = _desk(None)
+    desk, works = _desk(None)
     states = () if every else [state for state in JobState if state not in ENDED]
     found = desk.jobs(states, on)
     asked = desk.questions()
     rows = [job.model_dump(mode="json") for job in found]
-    lines = [_line(job) + _asked(job, asked) for job in found]
+    lines = [told(job, asked) for job in found]
     say(as_json, rows, "\n".join(lines) or "No job is under way.")
+    if not works and any(job.state not in ENDED for job in found):
+        typer.echo(_NOBODY, err=True)
 
 
 @jobs.command()
@@ -117,19 +119,18 @@ def show(
         "questions": [one.model_dump(mode="json") for one in asked],
         "history": [one.model_dump(mode="json") for one in history],
     }
-    lines = [_line(found), f"      plan {found.plan or 'not made yet'}"]
+    lines = [told(found, asked), f"      plan {found.plan or 'not made yet'}"]
     lines += [f"      sheet {sheet}" for sheet in found.sheets]
-    lines += [_question(one) for one in asked]
-    lines += ["", *(f"      {h.when}  {h.who}: {h.sheet} {h.what}" for h in history)]
+    lines += ["", *(_happened(one) for one in history)]
     if transcript:
         lines += ["", *map(str, desk.transcripts(found.id))]
-    say(as_json, data, "\n".join(lines).replace(":  ", ": "))
+    say(as_json, data, "\n".join(lines))
 
 
 @jobs.command()
 def answer(
     question: Annotated[str, typer.Argument(help="A question's id; it is good for one answer.")],
-    no: Annotated[bool, typer.Option("--no", help="No; at a gate that ends the job.")] = False,
+    no: Annotated[bool, typer.Option("--no", help="No; at a gate it ends the job.")] = False,
     sheet: Annotated[str, typer.Option(help="The id that is written on the sheet.")] = "",
     thickness: Annotated[float | None, typer.Option(help="Of the sheet, mm.")] = None,
     temperature: Annotated[float | None, typer.Option(help="Of the sheet, °C.")] = None,
@@ -174,7 +175,7 @@ def answer(
     )
     desk, works = _desk(None)
     desk.answer(question, reply, who)
-    typer.echo("Answered." if works else f"Answered; {_IDLE}, and it is asked anew then.")
+    typer.echo("Answered." if works else f"Answered, to be asked anew. {_NOBODY}")
 
 
 @jobs.command()
@@ -271,25 +272,10 @@ def _stated(kind: type[V], **given: Any) -> V:
         raise InvalidInput(explain(error, kind)) from None
 
 
+def _happened(one: Happening) -> str:
+    what = f"{one.sheet} {one.what}".strip()
+    return hanging(f"      {moment(one.when)}  {one.who}: {what}", " " * 31)
+
+
 def _told(job: JobRecord, as_json: bool) -> None:
-    say(as_json, job.model_dump(mode="json"), _line(job))
-
-
-def _line(job: JobRecord) -> str:
-    count = f"{job.copies} × " if job.copies > 1 else ""
-    note = f": {job.note}" if job.note else ""
-    wish = f" (to be {'paused' if job.wish == 'pause' else 'cancelled'})" if job.wish else ""
-    rank = f", priority {job.priority}" if job.priority else ""
-    what = f"{count}{job.title}, {job.material}, on {job.plotter}{rank}"
-    return f"{job.id}  {what}: {job.state.value}{wish}{note}"
-
-
-def _asked(job: JobRecord, asked: list[Question]) -> str:
-    mine = [_question(one) for one in asked if one.job == job.id]
-    return "\n" + "\n".join(mine) if mine else ""
-
-
-def _question(one: Question) -> str:
-    where = f" {one.setup}" if one.setup else ""
-    text = one.text.strip().replace("\n", "\n      ")
-    return f"      asks {one.id} ({one.kind.value}{where}): {text}"
+    say(as_json, job.model_dump(mode="json"), told(job))

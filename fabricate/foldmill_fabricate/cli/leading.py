@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.making import Folder
+from foldmill_fabricate.cli.choices import Folder
 from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 from foldmill_fabricate.cli.running import PassChoice, stopping_on_signals

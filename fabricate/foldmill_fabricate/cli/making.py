@@ -3,101 +3,38 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.importing import PatternFile, imported, with_file_options
-from foldmill_fabricate.cli.output import (
-    AsJson,
-    exit_code,
-    figure_lines,
-    finding_data,
-    finding_lines,
-    say,
-    table,
+from foldmill_fabricate.cli.account import describe, next_steps
+from foldmill_fabricate.cli.choices import (
+    BlankSize,
+    CarrierSize,
+    DxfChoice,
+    FlipChoice,
+    FlipKind,
+    Folder,
+    Formats,
+    MachineSlug,
+    MaterialSlug,
+    ProcessChoice,
+    RegistrationChoice,
+    ReliefChoice,
+    ScoreProcess,
+    UnassignedChoice,
+    counts,
+    size,
+    temperatures,
 )
+from foldmill_fabricate.cli.importing import PatternFile, imported, with_file_options
+from foldmill_fabricate.cli.output import AsJson, exit_code, finding_data, say
 
 if TYPE_CHECKING:
     from foldmill_fabricate.machines import Machine
     from foldmill_fabricate.materials import Material
-    from foldmill_fabricate.passes import Figures, Plan
-
-
-class FlipChoice(StrEnum):
-    """How the operator turns the sheet over."""
-
-    LEFT_RIGHT = "left-right"
-    END_OVER_END = "end-over-end"
-
-
-class DxfChoice(StrEnum):
-    """Which DXF drawings are written in."""
-
-    R2000 = "r2000"
-    R12 = "r12"
-
-
-class UnassignedChoice(StrEnum):
-    """Where creases without mountain or valley are scored."""
-
-    FRONT = "front"
-    REVERSE = "reverse"
-    SKIP = "skip"
-
-
-class ReliefChoice(StrEnum):
-    """Which vertices get a hole."""
-
-    NONE = "none"
-    NEEDED = "needed"
-    ALL = "all"
-
-
-class RegistrationChoice(StrEnum):
-    """What keeps the reverse in register with the front."""
-
-    HOLES = "holes"
-    L_MARKS = "l-marks"
-    EDGE = "edge"
-    PINS = "pins"
-    NONE = "none"
-
-
-class ProcessChoice(StrEnum):
-    """How a line is made."""
-
-    HALF_CUT = "half-cut"
-    CREASE_WHEEL = "crease-wheel"
-    STYLUS = "stylus"
-    PERFORATION = "perforation"
-    V_SCORE = "v-score"
-    THROUGH_CUT = "through-cut"
-    SCORE_AND_SNAP = "score-and-snap"
-    PEN = "pen"
-
-
-MaterialSlug = Annotated[str, typer.Option(help="A slug of `foldmill materials`.")]
-MachineSlug = Annotated[str, typer.Option(help="A slug of `foldmill machines`.")]
-BlankSize = Annotated[
-    str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the material's stock size.")
-]
-CarrierSize = Annotated[
-    str | None, typer.Option(help="WIDTHxHEIGHT in mm; default: the machine's mat.")
-]
-FlipKind = Annotated[FlipChoice, typer.Option(help="How the sheet is turned over.")]
-ScoreProcess = Annotated[
-    ProcessChoice | None,
-    typer.Option(help="How creases are made; default: the first the machine can do."),
-]
-Formats = Annotated[
-    str | None,
-    typer.Option(help="Formats, separated by commas; default: svg,dxf and the machine's own."),
-]
-Folder = Annotated[Path, typer.Argument(help="A job folder, as `foldmill plan` writes it.")]
 
 
 def add_to(app: typer.Typer) -> None:
@@ -175,7 +112,8 @@ def plan(
         drawings.refuse_options(any(others), registration.value != "holes", options)
         drawn = drawings.planned(file, pen or [], chosen_material, chosen_machine, asked)
         written = write_drawing(drawn, output, formats, look)
-        say(as_json, written.model_dump(mode="json"), describe(written))
+        told = f"{describe(written)}\n{next_steps(written, output)}"
+        say(as_json, written.model_dump(mode="json"), told)
         return
     drawings.refuse_pens(pen or [])
     found = imported(file, options)
@@ -195,12 +133,9 @@ def plan(
         temperatures=None if temperature is None else temperatures(temperature),
     )
     written = folder.write(fold, made, output, formats, look)
-    programs = (
-        "" if written.programs else "\nNo programs were asked for: nothing to verify or send."
-    )
     data = {**written.model_dump(mode="json"), "quantity": written.quantity}
     data["figures"]["travel_gap"] = written.figures.travel_gap
-    say(as_json, data, describe(written) + programs)
+    say(as_json, data, f"{describe(written)}\n{next_steps(written, output)}")
     exit_code(written.findings)
 
 
@@ -249,69 +184,3 @@ def presets(material: str, machine: str) -> tuple[Material, Machine]:
     from foldmill_fabricate import shelf
 
     return shelf.material(material), shelf.machine(machine)
-
-
-def size(text: str, option: str) -> tuple[float, float]:
-    """Read WIDTHxHEIGHT in mm."""
-    width, _, height = text.lower().replace("×", "x").partition("x")
-    try:
-        read = float(width), float(height)
-    except ValueError:
-        raise FoldmillError(
-            f"{option}: write WIDTHxHEIGHT in mm, as 500x500; not {text!r}."
-        ) from None
-    if not (0 < read[0] < 1e5 and 0 < read[1] < 1e5):
-        raise FoldmillError(f"{option}: both sides must be positive and below 100 m, not {text!r}.")
-    return read
-
-
-def counts(text: str, option: str) -> tuple[int, int]:
-    """Read COLUMNSxROWS, both at least one."""
-    columns, _, rows = text.lower().replace("×", "x").partition("x")
-    if not (columns.isdecimal() and rows.isdecimal() and int(columns) and int(rows)):
-        raise FoldmillError(f"{option}: write COLUMNSxROWS, as 3x2; not {text!r}.")
-    return int(columns), int(rows)
-
-
-def temperatures(text: str) -> tuple[float, float]:
-    """Read FRONT,REVERSE in °C."""
-    front, _, reverse = text.partition(",")
-    try:
-        read = float(front), float(reverse)
-    except ValueError:
-        raise FoldmillError(
-            f"--temperature: write FRONT,REVERSE in °C, as 21,24; not {text!r}."
-        ) from None
-    if not all(-50 <= each <= 150 for each in read):
-        raise FoldmillError(f"--temperature: a sheet has -50 to 150 °C, not {text!r}.")
-    return read
-
-
-def describe(plan: Plan) -> str:
-    """Return a short account of a plan: set-ups, figures, findings."""
-    rows = [("SET-UP", "FACE", "BEFORE IT", "STROKES", "REPEATS")]
-    for work in plan.passes:
-        for setup in work.setups:
-            strokes = sum(len(operation.strokes) for operation in setup.operations)
-            repeats = "/".join(str(r) for r in sorted({op.repeats for op in setup.operations}))
-            gates = ", ".join(setup.gates) or "-"
-            rows.append((f"{setup.number} {setup.name}", work.face, gates, str(strokes), repeats))
-    figures = plan.figures
-    facts = {
-        "blank": f"{plan.sheet.width:g} × {plan.sheet.height:g} mm",
-        **({"copies": str(plan.quantity)} if plan.quantity > 1 else {}),
-        "turned by": f"{plan.placement.angle:g}°",
-        "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
-        "travel": f"{figures.travel / 1000:.2f} m{gap(figures)}",
-        "time": f"{figures.seconds / 60:.1f} min without the operator's",
-    }
-    return "\n".join([table(rows), figure_lines(facts), finding_lines(plan.findings)])
-
-
-def gap(figures: Figures) -> str:
-    """Say how far travel is above what is proved that no order goes below; empty where unknown."""
-    above, bound = figures.travel_gap, figures.travel_bound
-    if above is None:
-        return ""
-    share = f" ({100 * above / bound:.1f} %)" if above < bound else ""
-    return f", {above / 1000:.2f} m{share} above {bound / 1000:.2f} m, which no order goes below"

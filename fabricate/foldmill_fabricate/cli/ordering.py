@@ -98,7 +98,7 @@ def _pair(text: str) -> tuple[str, str]:
 def _value(name: str, text: str) -> Any:
     """Read a value: a number, a word, or WIDTHxHEIGHT."""
     if name in {"blank", "carrier"}:
-        from foldmill_fabricate.cli.making import size
+        from foldmill_fabricate.cli.choices import size
 
         return size(text, name)
     try:

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from foldmill.finding import Finding, has_errors
+from foldmill_fabricate.cli.layout import hanging, table
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
@@ -29,7 +30,7 @@ def finding_lines(findings: Iterable[Finding]) -> str:
     lines = []
     for (severity, _), found in groups.items():
         more = f" (and {len(found) - 1} more like it)" if len(found) > 1 else ""
-        lines.append(f"{severity:8} {found[0]}{more}")
+        lines.append(hanging(f"{severity:8} {found[0]}{more}", " " * 9))
     return "\n".join(lines)
 
 
@@ -38,19 +39,14 @@ def finding_data(findings: Iterable[Finding]) -> list[dict[str, Any]]:
     return [asdict(finding) for finding in findings]
 
 
-def table(rows: Iterable[tuple[str, ...]]) -> str:
-    """Return rows in aligned columns."""
-    listed = list(rows)
-    widths = [max(len(row[k]) for row in listed) for k in range(len(listed[0]))] if listed else []
-    return "\n".join(
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in listed
-    )
-
-
 def figure_lines(figures: Mapping[str, object]) -> str:
     """Return one line per figure."""
-    return table([(name.replace("_", " "), f"{value}") for name, value in figures.items()])
+    return table([(name.replace("_", " "), _figure(value)) for name, value in figures.items()])
+
+
+def _figure(value: object) -> str:
+    """Return a figure as a person reads it; ``--json`` has all of its digits."""
+    return f"{value:.6g}" if isinstance(value, float) else f"{value}"
 
 
 def report_text(figures: Mapping[str, object]) -> str:

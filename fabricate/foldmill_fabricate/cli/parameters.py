@@ -20,6 +20,8 @@ from foldmill.numbered import inserted, moved, removed
 from foldmill.schema import Leaf, leaves
 
 _EDITS = ("insert", "drop")
+_OPTIONS = ("preset", "params", "output", "force", "json")
+"""Options that commands have beside a family's parameters."""
 
 
 def gather(
@@ -35,6 +37,7 @@ def gather(
     if file is not None:
         values |= _toml(file)
     given = list(pairs(options))
+    _refuse_mistyped([name for name, _ in given], design)
     for name, text in given:
         if name in _EDITS:
             values = _renumber(design.params, values, name, text)
@@ -44,6 +47,16 @@ def gather(
         _put(values, path, value)
     params: Params = design.validate(values)
     return params
+
+
+def _refuse_mistyped(names: Sequence[str], design: Design[Any]) -> None:
+    """Refuse what is no parameter and nearly an option: --presets is not a parameter misspelt."""
+    from difflib import get_close_matches
+
+    for name in names:
+        near = get_close_matches(name, _OPTIONS, 1, 0.75)
+        if near and name.split(".")[0] not in {*design.params.model_fields, *_EDITS}:
+            raise InvalidParameters(f"There is no option --{name}. Did you mean --{near[0]}?")
 
 
 def _renumber(model: type[Params], values: dict[str, Any], edit: str, place: str) -> dict[str, Any]:

@@ -97,7 +97,9 @@ class Person:
             partial(_one_of, {"": False, "n": False, "no": False, "y": True, "yes": True}),
         )
         if wanted is None:
-            raise CannotSend(f"Stopped before {request.setup.name}, as the operator said.")
+            raise CannotSend(
+                f"Stopped before {request.setup.name}, as the operator said. Send again to go on."
+            )
         return wanted
 
     def judge(self, request: Request) -> Verdict:
@@ -241,4 +243,5 @@ def _ask(question: str) -> str:
     try:
         return str(typer.prompt(question, default="", show_default=False, err=True)).strip()
     except typer.Abort:
+        _tell("")  # what comes next stands on a line of its own
         return _STOP

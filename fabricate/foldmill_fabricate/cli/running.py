@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.making import Folder, temperatures
+from foldmill_fabricate.cli.choices import Folder, temperatures
 from foldmill_fabricate.cli.marks import read_marks
 from foldmill_fabricate.cli.output import AsJson, say
 

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from foldmill import FoldmillError, InvalidInput
-from foldmill_fabricate.cli.output import AsJson, say, table
+from foldmill_fabricate.cli.layout import table
+from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
     from foldmill import Design

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from foldmill_fabricate.cli.making import Formats, describe
+from foldmill_fabricate.cli.account import describe, next_steps
+from foldmill_fabricate.cli.choices import Formats
+from foldmill_fabricate.cli.layout import hanging, moment
 from foldmill_fabricate.cli.output import AsJson, say
 
 if TYPE_CHECKING:
@@ -77,7 +79,8 @@ def sheets(
         _give_up(ledger, ledger.sheet(name))
     if remake and output:
         made = remaking.rest(ledger, name, output, doubtful or [], half or [], job, to)
-        say(as_json, made.model_dump(mode="json"), describe(made))
+        told = f"{describe(made)}\n{next_steps(made, output)}"
+        say(as_json, made.model_dump(mode="json"), told)
         return
     if output:
         remaking.draw(ledger, name, output, job)
@@ -124,11 +127,13 @@ def _list(found: list[SheetRecord]) -> str:
 
 
 def _head(sheet: SheetRecord) -> str:
-    return f"{sheet.id}  {sheet.title}, {sheet.material}, {sheet.machine}, begun {sheet.begun}"
+    what = f"{sheet.title}, {sheet.material}, {sheet.machine}"
+    return hanging(f"{sheet.id}  {what}, begun {moment(sheet.begun)}", " " * 6)
 
 
 def _programs(sheet: SheetRecord) -> str:
-    return "\n".join(f"      {_program(record)}" for record in sheet.records)
+    lines = (f"      {_program(record)}" for record in sheet.records)
+    return "\n".join(hanging(line, " " * 35) for line in lines)
 
 
 def _program(record: Record) -> str:
@@ -143,5 +148,7 @@ def _program(record: Record) -> str:
 
 
 def _whole(sheet: SheetRecord, history: list[tuple[str, str, str]]) -> str:
-    lines = [f"      {when}  {who}: {what}" for when, who, what in history]
+    lines = [
+        hanging(f"      {moment(when)}  {who}: {what}", " " * 31) for when, who, what in history
+    ]
     return "\n".join([_head(sheet), _programs(sheet), "", *lines])

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from foldmill import FoldmillError
-from foldmill_fabricate.cli.making import (
+from foldmill_fabricate.cli.account import describe, next_steps
+from foldmill_fabricate.cli.choices import (
     BlankSize,
     CarrierSize,
     FlipChoice,
@@ -18,11 +19,9 @@ from foldmill_fabricate.cli.making import (
     MaterialSlug,
     ProcessChoice,
     ScoreProcess,
-    describe,
-    formats_for,
-    presets,
     size,
 )
+from foldmill_fabricate.cli.making import formats_for, presets
 from foldmill_fabricate.cli.output import AsJson, exit_code, say
 
 if TYPE_CHECKING:
@@ -103,7 +102,12 @@ def _account(plan: Plan, folder: Path) -> str:
     from foldmill_fabricate.coupon.answers import NAME
 
     left_out = plan.coupon.left_out if plan.coupon else ()
-    told = [describe(plan), *left_out, f"How it is read stands on {folder / 'job-sheet.pdf'};"]
+    told = [
+        describe(plan),
+        *left_out,
+        next_steps(plan, folder),
+        f"How it is read stands on {folder / 'job-sheet.pdf'};",
+    ]
     told.append(f"write what you read into {folder / NAME}, then foldmill coupon --record {folder}")
     return "\n".join(told)
 

@@ -188,7 +188,7 @@ class Desk:
         sheet = said.sheet.upper() or (job.sheets[-1] if job.sheets else "")
         if not job.is_ended:
             raise JobRefused(
-                f"Job {job.id} is {job.state.value}: it goes on by itself, or cancel it."
+                f"Job {job.id} has not ended, it is {job.state.value}: cancel it first."
             )
         if sheet not in job.sheets:
             known = ", ".join(job.sheets) or "none was begun"

@@ -111,7 +111,9 @@ def _missing(url: str) -> str:
     from serial.tools.list_ports import comports
 
     names = ", ".join(sorted(port.device for port in comports())) or "none"
-    return f"There is no port {url}. Ports on this computer: {names}."
+    host, _, number = url.rpartition(":")
+    meant = f" One on the network is named socket://{url}." if host and number.isdecimal() else ""
+    return f"There is no port {url}. Ports on this computer: {names}.{meant}"
 
 
 def _busy(url: str) -> str:

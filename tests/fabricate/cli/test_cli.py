@@ -35,6 +35,13 @@ def test_a_design_is_written_as_its_suffix_says(foldmill: Run, suffix: str) -> N
     assert Path(f"form.{suffix}").stat().st_size > 500
 
 
+def test_a_form_that_is_looked_at_only_is_not_thought_written(foldmill: Run) -> None:
+    assert (
+        "Nothing is written; -o rotational.fold writes it." in foldmill("design", "rotational").err
+    )
+    assert foldmill("design", "rotational", "-o", "a.fold").err == ""
+
+
 def test_one_value_by_its_dotted_name_changes_the_form(foldmill: Run) -> None:
     told = foldmill("design", "tuck", "--preset", "stool-n8", "--tucks.0.t", "null", "--json")
     assert told.code == 0
@@ -106,12 +113,18 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["design", "tuck", "--points.9.a", "5"], "numbered 1, 2, 3"),
         (["design", "tuck", "--colour", "red"], "There is no colour to set"),
         (["design", "tuck", "--phi"], "--phi needs a value"),
+        (["design", "tuck", "--presets", "stool-n8"], "Did you mean --preset?"),
+        (["desing", "tuck"], "Did you mean 'design'? `foldmill --help` tells what there is."),
+        (["plan", "a.fold", "--width", "44cm", "-o", "job"], "in digits, without its unit."),
+        (["plan", "a.fold", "--flip", "left", "-o", "job"], "'--flip': 'left' is not one of"),
+        (["check", "."], ".: is a directory. Name a file in it."),
         (["design", "tuck", "--phi", "NaN"], "phi must be"),
         (["design", "tuck", "-o", "stool.dwg"], "write .fold .svg .png .glb .stl or .obj"),
-        (["check", "nothing.fold"], "nothing.fold: no such file or directory."),
+        (["check", "nothing.fold"], "nothing.fold: no such file or directory. Check its name"),
         (["plan", "bad.fold", "-o", "job"], "bad.fold"),
         (["plan", "a.fold", "-o", "job", "--material", "oak"], "There is no material 'oak'"),
         (["plan", "a.fold", "-o", "job", "--machine", "x"], "There is no machine 'x'"),
+        (["machines", "--show", "grbl-lazer"], "Did you mean 'grbl-laser'?"),
         (["plan", "a.fold", "-o", "job", "--blank", "big"], "write WIDTHxHEIGHT in mm"),
         (["plan", "a.fold", "-o", "job", "--blank", "50x50"], "mm are missing"),
         (["plan", "a.fold", "-o", "job", "--to", ","], "--to names no format"),

@@ -12,8 +12,8 @@ from slit_forms import form
 
 from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
+from foldmill_fabricate.cli.account import gap
 from foldmill_fabricate.cli.app import main
-from foldmill_fabricate.cli.making import gap
 from foldmill_fabricate.passes import Figures, Plan
 
 
@@ -130,3 +130,17 @@ def test_copies_that_cannot_be_made_are_refused_in_one_sentence(
     assert said in told
     assert "Traceback" not in told
     assert not job.exists()
+
+
+def test_who_has_planned_is_told_where_it_lies_and_what_comes_next(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert foldmill("plan", "stool.fold", "-o", "job") == 0
+    *_, head, tried, sent = capsys.readouterr().out.splitlines()
+    assert head == f"job: 4 programs; print {Path('job/job-sheet.pdf')}. Next:"
+    assert tried.split()[:3] == sent.split()[:3] == ["foldmill", "send", "job"]
+    words = tried.split("#")[0].split()[1:]
+    assert foldmill(*words) == 0, "it is a command, as it is told"
+
+    assert foldmill("plan", "stool.fold", "--to", "svg", "-o", "drawings") == 0
+    assert "drawings: drawings only." in capsys.readouterr().out
