@@ -23,7 +23,6 @@ from foldmill_fabricate.service.routes.answers import (
     Declared,
     binary,
     desk,
-    problems,
 )
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
@@ -47,7 +46,7 @@ async def design(request: DesignRequest, at: At, _: Submitter, response: Respons
     return _made(await at.design(request), response)
 
 
-@ROUTER.post("/patterns", status_code=201, responses=CHANGING | problems(408), openapi_extra=_BODY)
+@ROUTER.post("/patterns", status_code=201, responses=CHANGING, openapi_extra=_BODY)
 async def upload(
     request: Request,
     at: At,

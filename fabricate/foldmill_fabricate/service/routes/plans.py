@@ -29,7 +29,6 @@ from foldmill_fabricate.service.routes.answers import (
     binary,
     desk,
     plans,
-    problems,
 )
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
@@ -55,7 +54,7 @@ async def begin(request: PlanRequest, those: Those, _: Submitter, response: Resp
     return status
 
 
-@ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
+@ROUTER.post("/kept", status_code=201, responses=CHANGING, openapi_extra=_FILE)
 async def keep(
     request: Request,
     those: Those,
@@ -73,7 +72,7 @@ async def keep(
         return await those.keep(folder)
 
 
-@ROUTER.post("/drawn", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
+@ROUTER.post("/drawn", status_code=201, responses=CHANGING, openapi_extra=_FILE)
 async def draw(
     request: Request,
     those: Those,
