@@ -121,6 +121,8 @@ class _Server(uvicorn.Server):
         if isinstance(app, FastAPI):
             app.state.stopping.set()  # those who follow what happens are let go
             await asyncio.to_thread(app.state.workshop.stop)  # machines before everything else
+            await app.state.plans.finish()
+            await asyncio.to_thread(app.state.desk.sandbox.close)  # who waits for it is told
         await super().shutdown(sockets)
         LOG.info("ended")
 

@@ -7,7 +7,9 @@ import os
 import signal
 import subprocess
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -45,6 +47,43 @@ def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -
     assert {"time", "level", "logger", "message"} <= {*lines[0]}
     posted = next(line for line in lines if line.get("path") == "/api/v1/patterns")
     assert (posted["method"], posted["status"]) == ("POST", 201)
+
+
+def grid(side: int, title: str) -> dict[str, Any]:
+    """Return a FOLD file that takes its time: squares of a pattern that cannot fold."""
+    places = [(k % side, k // side) for k in range(side * side)]
+    across = [(k, k + 1) for k, (x, _) in enumerate(places) if x < side - 1]
+    edges = across + [(k, k + side) for k, (_, y) in enumerate(places) if y < side - 1]
+    rims = (0, side - 1)
+    assignment = [
+        "B" if any(places[a][axis] == places[b][axis] in rims for axis in (0, 1)) else "M"
+        for a, b in edges
+    ]
+    return square() | {
+        "frame_title": title,
+        "vertices_coords": places,
+        "edges_vertices": edges,
+        "edges_assignment": assignment,
+    }
+
+
+def test_whoever_waits_when_it_ends_is_told_to_come_again(tmp_path: Path) -> None:
+    with serving(tmp_path) as (process, url), ThreadPoolExecutor(8) as several:
+
+        def upload(number: int) -> httpx.Response:
+            pattern = grid(90, f"{number}")
+            return httpx.post(f"{url}/api/v1/patterns", json=pattern, timeout=60)
+
+        answers = [several.submit(upload, number) for number in range(8)]
+        while httpx.get(f"{url}/healthz").json()["waiting"] < 6:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        told = [answer.result() for answer in answers]
+    refused = [answer for answer in told if answer.status_code != 201]
+    assert len(refused) > 3
+    for answer in refused:
+        assert answer.status_code == 503
+        assert answer.json()["detail"].startswith("The service is ending")
 
 
 def test_a_token_is_never_logged(tmp_path: Path) -> None:

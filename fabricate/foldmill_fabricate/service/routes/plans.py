@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from mimetypes import guess_type
 from typing import Annotated, Any
 
@@ -116,7 +117,7 @@ async def verification(
     plan: Digest, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
 ) -> Verification:
     """Replay the programs of a plan on a virtual sheet, and derive the plan again."""
-    return await at.verify(plan, those.job(plan))
+    return await at.verify(plan, await asyncio.to_thread(those.job, plan))
 
 
 @ROUTER.get(
