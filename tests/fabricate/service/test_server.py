@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -98,3 +99,14 @@ def test_a_token_is_never_logged(tmp_path: Path) -> None:
     assert '"who": "anna"' in log
     assert secret not in log
     assert "Traceback" not in log
+
+
+def test_what_a_power_cut_has_left_is_no_service_whoever_has_its_number_now(
+    tmp_path: Path,
+) -> None:
+    places = Places(tmp_path, "")
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        url = f"http://127.0.0.1:{listening.getsockname()[1]}"
+        places.service.write_text(json.dumps({"url": url, "pid": os.getpid()}))
+        assert reached(places) == url
+    assert reached(places) is None

@@ -9,9 +9,9 @@ from fastapi.responses import FileResponse
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
+from foldmill_fabricate.service.ids import PatternId
 from foldmill_fabricate.service.models import (
     DesignRequest,
-    Digest,
     Pattern,
     Report,
     Upload,
@@ -69,13 +69,13 @@ def patterns(at: At, _: Viewer) -> list[Pattern]:
 
 
 @ROUTER.get("/patterns/{pattern}", responses=READING)
-def pattern(pattern: Digest, at: At, _: Viewer) -> Pattern:
+def pattern(pattern: PatternId, at: At, _: Viewer) -> Pattern:
     """Tell what is known of a pattern."""
     return at.pattern(pattern)
 
 
 @ROUTER.get("/patterns/{pattern}/check", responses=READING)
-async def check(pattern: Digest, at: At, _: Viewer) -> Report:
+async def check(pattern: PatternId, at: At, _: Viewer) -> Report:
     """Check that a pattern folds: developable, planar, isometric, free of penetration."""
     return await at.check(pattern)
 
@@ -85,7 +85,7 @@ async def check(pattern: Digest, at: At, _: Viewer) -> Report:
     responses=READING | binary("application/json", "The FOLD file."),
     response_class=FileResponse,
 )
-def fold(pattern: Digest, at: At, _: Viewer) -> FileResponse:
+def fold(pattern: PatternId, at: At, _: Viewer) -> FileResponse:
     """Get the FOLD file of a pattern."""
     return FileResponse(at.storage.pattern(pattern) / PATTERN, media_type="application/json")
 
@@ -95,7 +95,7 @@ def fold(pattern: Digest, at: At, _: Viewer) -> FileResponse:
     responses=READING | binary("application/octet-stream", "The drawing, as its name says."),
     response_class=FileResponse,
 )
-async def drawing(pattern: Digest, name: Drawing, at: At, _: Viewer) -> FileResponse:
+async def drawing(pattern: PatternId, name: Drawing, at: At, _: Viewer) -> FileResponse:
     """Get a drawing of a pattern, or a mesh of its folded form."""
     return FileResponse(await at.drawing(pattern, name), media_type=DRAWINGS[name])
 

@@ -13,8 +13,8 @@ from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.service.bounds import MOST_DRAWING
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
+from foldmill_fabricate.service.ids import PlanId
 from foldmill_fabricate.service.models import (
-    Digest,
     KeptPlan,
     PlanRequest,
     PlanState,
@@ -107,14 +107,14 @@ def every(those: Those, _: Viewer) -> list[PlanStatus]:
 
 
 @ROUTER.get("/{plan}", responses=READING)
-def status(plan: Digest, those: Those, _: Viewer) -> PlanStatus:
+def status(plan: PlanId, those: Those, _: Viewer) -> PlanStatus:
     """Tell how a plan stands, and of one that is done what it is."""
     return those.status(plan)
 
 
 @ROUTER.get("/{plan}/verification", responses=READING)
 async def verification(
-    plan: Digest, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
+    plan: PlanId, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
 ) -> Verification:
     """Replay the programs of a plan on a virtual sheet, and derive the plan again."""
     return await at.verify(plan, await asyncio.to_thread(those.job, plan))
@@ -126,7 +126,7 @@ async def verification(
     response_class=FileResponse,
 )
 def file(
-    plan: Digest,
+    plan: PlanId,
     name: Annotated[str, Path(max_length=200, description="As the plan's files tell it.")],
     those: Those,
     _: Viewer,
