@@ -26,7 +26,9 @@ from foldmill_fabricate.service.workshop import Workshop
 
 
 def test_it_says_where_it_is_and_ends_within_seconds_when_told(tmp_path: Path) -> None:
-    with serving(tmp_path) as (process, url):
+    with serving(tmp_path, "--plotter", "bench=sim://generic-hpgl-600") as (process, url):
+        assert process.stdout is not None
+        assert process.stdout.readline() == "plotters: bench\n"
         assert reached(Places(tmp_path, "")) == url
         with pytest.raises(PortUnavailable, match=f"A service runs in {tmp_path} already .{url}."):
             serve(Workshop(Places(tmp_path, ""), works=False), Policy(), 0)
