@@ -19,6 +19,7 @@ from foldmill_fabricate.jobs import Places
 from foldmill_fabricate.jobs.plotters import Plotter
 from foldmill_fabricate.service.app import create
 from foldmill_fabricate.service.security import Policy
+from foldmill_fabricate.service.server import configured
 from foldmill_fabricate.service.workshop import Workshop
 
 
@@ -34,8 +35,7 @@ def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client
     app = create(workshop, policy)
     with socket.create_server(("127.0.0.1", 0)) as listening:
         port = listening.getsockname()[1]
-        config = uvicorn.Config(app, log_config=None, access_log=False, timeout_graceful_shutdown=2)
-        server = uvicorn.Server(config)
+        server = uvicorn.Server(configured(app))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
         thread.start()
         while not server.started and thread.is_alive():

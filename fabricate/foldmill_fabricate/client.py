@@ -52,18 +52,18 @@ class Client:
     """A service, at an address.
 
     url : by default where this user's service says it is. token : as ``foldmill serve --new-token``
-    told it. seconds : how long an answer may take. Raises Unreachable where no service runs.
+    told it. seconds : how long an answer may take. Raises Unreachable where no service runs,
+    InvalidInput for what is no address or no token.
     """
 
     def __init__(self, url: str = "", token: str = "", seconds: float = 120.0) -> None:
         found = url or reached()
         if found is None:
             raise Unreachable("No service runs here; start one with foldmill serve.")
-        self.url = found.rstrip("/")
-        headers = {"authorization": f"Bearer {token}"} if token else {}
+        self.url = answers.address(found)
         self._http = httpx.Client(
             base_url=self.url,
-            headers=headers,
+            headers=answers.bearer(token),
             timeout=seconds,
             limits=httpx.Limits(max_keepalive_connections=0),  # a service may end in between
             trust_env=False,
@@ -135,19 +135,19 @@ class Client:
 
     def pattern(self, digest: str) -> models.Pattern:
         """Return what is known of a pattern."""
-        return self._get(models.Pattern, f"/patterns/{digest}")
+        return self._get(models.Pattern, f"/patterns/{answers.quoted(digest)}")
 
     def fold(self, digest: str) -> bytes:
         """Return the FOLD file of a pattern."""
-        return self._bytes(f"/patterns/{digest}/pattern.fold")
+        return self._bytes(f"/patterns/{answers.quoted(digest)}/pattern.fold")
 
     def drawing(self, digest: str, name: str) -> bytes:
         """Return a drawing of a pattern, such as pattern.svg or folded.glb."""
-        return self._bytes(f"/patterns/{digest}/drawings/{answers.quoted(name)}")
+        return self._bytes(f"/patterns/{answers.quoted(digest)}/drawings/{answers.quoted(name)}")
 
     def check(self, digest: str) -> models.Report:
         """Check that a pattern folds."""
-        return self._get(models.Report, f"/patterns/{digest}/check")
+        return self._get(models.Report, f"/patterns/{answers.quoted(digest)}/check")
 
     def plan(self, request: models.PlanRequest) -> models.PlanStatus:
         """Have a sheet planned; return how that stands."""
@@ -155,7 +155,7 @@ class Client:
 
     def plan_status(self, digest: str) -> models.PlanStatus:
         """Return how a plan stands."""
-        return self._get(models.PlanStatus, f"/plans/{digest}")
+        return self._get(models.PlanStatus, f"/plans/{answers.quoted(digest)}")
 
     def planned(self, request: models.PlanRequest) -> models.PlanStatus:
         """Have a sheet planned and wait for it; raises CannotPlan with the sentence."""
@@ -172,7 +172,7 @@ class Client:
 
     def verification(self, digest: str) -> models.Verification:
         """Verify a plan on a virtual sheet."""
-        return self._get(models.Verification, f"/plans/{digest}/verification")
+        return self._get(models.Verification, f"/plans/{answers.quoted(digest)}/verification")
 
     def save(self, plan: models.PlanStatus, folder: Path) -> None:
         """Write the files of a plan that is done into a folder, plan.json last."""
@@ -182,7 +182,7 @@ class Client:
     # ── jobs ─────────────────────────────────────────────────────────────────────────────────────
 
     def keep(self, folder: Path) -> str:
-        """Keep a job folder; return the id of its plan."""
+        """Keep a job folder; return the id of its plan. Raises OSError where it cannot be read."""
         return self._send(models.KeptPlan, "/plans/kept", pack(folder), {}).plan
 
     def keep_drawing(self, content: bytes, asked: Asked) -> str:
@@ -299,14 +299,7 @@ class Client:
         return self._read(JobRecord, self._answered("POST", path, json=body, params=signed))
 
     def _answered(self, method: str, path: str, **how: Any) -> httpx.Response:
-        """Return an answer; raises the error that the service tells of, or Unreachable."""
-        try:
-            answer = self._http.request(method, _PREFIX + path, **how)
-        except httpx.HTTPError as error:
-            raise answers.unreachable(self.url, error) from None
-        if not answer.is_success:
-            raise answers.refusal(answer)
-        return answer
+        return answers.asked(self._http, method, _PREFIX + path, **how)
 
     def _read(self, kind: type[T], answer: httpx.Response) -> T:
         return answers.understood(kind, answer.content, self.url)

@@ -29,6 +29,7 @@ class PlanOptions(BaseModel):
     carrier: tuple[_Side, _Side] | None = None
     """Width and height, mm; by default the machine's mat."""
     flip: Literal["left-right", "end-over-end"] = "left-right"
+    """About which axis the sheet is turned over."""
     unassigned: Literal["front", "reverse", "skip"] | None = None
     """Where creases without mountain or valley are scored."""
     score: Kind | None = None
@@ -38,6 +39,7 @@ class PlanOptions(BaseModel):
     relief: Literal["none", "needed", "all"] = "none"
     """Which vertices get a hole in which grooves end."""
     copies: _Count = 1
+    """How many of it lie on one sheet."""
     grid: tuple[_Count, _Count] | None = None
     """Columns and rows of copies, instead of ``copies``."""
     registration: RegistrationKind = "holes"

@@ -18,6 +18,10 @@ class ScopeChoice(StrEnum):
     OPERATE = "operate"
 
 
+_GREETING = "foldmill serves on {}\nplotters: {}"
+"""What a terminal hears first, when it is served; the log goes to standard error."""
+
+
 def add_to(app: typer.Typer) -> None:
     """Add this command to the application."""
     app.command(name="serve")(serve_command)
@@ -86,9 +90,13 @@ def serve_command(
         from foldmill_fabricate.service.workshop import Workshop
 
         who = policy(places.root, host, tuple(name or ()), demand_tokens)
-        workshop = Workshop(places, plotters.read(more=plotter or ()), host_name)
+        known = plotters.read(more=plotter or ())
+        there = ", ".join(sorted(known)) or (
+            f"none yet: name them in {plotters.plotters_file()}, or with --plotter"
+        )
+        workshop = Workshop(places, known, host_name)
         logs.configure()
-        serve(workshop, who, port, lambda url: typer.echo(f"foldmill serves on {url}"))
+        serve(workshop, who, port, lambda url: typer.echo(_GREETING.format(url, there)))
 
 
 def _require_packages() -> None:

@@ -15,7 +15,14 @@ MOST_URGENT = 1000
 
 
 class _Value(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", use_attribute_docstrings=True, allow_inf_nan=False
+    )
+
+
+def _example(*bodies: dict[str, Any]) -> ConfigDict:
+    """Return the configuration of a value that the description of the API shows so."""
+    return ConfigDict(json_schema_extra={"examples": [*bodies]})
 
 
 class Order(_Value):
@@ -28,7 +35,9 @@ class Order(_Value):
     params: dict[str, Any] = Field(default_factory=dict)
     """of the family, by name; lengths in mm, angles in degrees"""
     material: str = Field(default="pp-0.75", max_length=100)
+    """slug of the sheet's material"""
     machine: str = Field(default="generic-hpgl-600", max_length=100)
+    """slug of the machine it is planned for: the plotter's"""
     options: PlanOptions = PlanOptions()
     """of planning, by the names of `foldmill plan`"""
 
@@ -36,10 +45,17 @@ class Order(_Value):
 class Submission(_Value):
     """What is asked for: a plan that is kept, or a design to be planned; on which plotter."""
 
+    model_config = _example(
+        {"design": {"family": "rotational", "preset": "star-n6"}, "plotter": "bench", "copies": 2},
+        {"plan": "5f" * 32, "plotter": "bench", "key": "order 1172, lamp 3"},
+    )
+
     plan: str = Field(default="", max_length=64)
     """id of a plan that is kept; empty where a design is ordered"""
     design: Order | None = None
+    """what is designed and planned first; none where a plan is named"""
     plotter: str = Field(max_length=100)
+    """its name, as `plotters` lists it"""
     copies: int = Field(default=1, ge=1, le=1000)
     """how many sheets of it"""
     priority: int = Field(default=0, ge=-MOST_URGENT, le=MOST_URGENT)
@@ -87,6 +103,8 @@ class JobRecord(_Value):
 class Rest(_Value):
     """What a person says of the strokes in doubt on a sheet, of which the rest is to be made."""
 
+    model_config = _example({"doubtful": ["cut"]}, {"sheet": "K7QF", "doubtful": ["1:3,5-8"]})
+
     sheet: str = Field(default="", max_length=8)
     """id of the sheet; empty for the last one of the job"""
     doubtful: tuple[str, ...] = Field(default=(), max_length=100)
@@ -94,6 +112,7 @@ class Rest(_Value):
     half: tuple[str, ...] = Field(default=(), max_length=100)
     """strokes that are cut in part, likewise"""
     priority: int = Field(default=0, ge=-1000, le=1000)
+    """of the job that makes the rest"""
 
 
 class Kind(StrEnum):
@@ -121,6 +140,10 @@ class Kind(StrEnum):
 class Reply(_Value):
     """What a person answers; which parts count depends on the question."""
 
+    model_config = _example(
+        {"thickness": 0.76, "temperature": 21.5}, {"word": "go on", "stroke": 12}, {"ok": False}
+    )
+
     ok: bool = True
     """done, yes, good, go on, again; False: no, stop the job"""
     sheet: str = Field(default="", max_length=8)
@@ -142,6 +165,7 @@ class Reply(_Value):
     stroke: int = Field(default=0, ge=0)
     """with go on: the first that is cut next, 1, 2, 3 …; 0: where the machine proves to stand"""
     vertex: int = Field(default=0, ge=0)
+    """with stroke: the corner of it that is gone on from, 0 for its beginning"""
     overlap: float = Field(default=0.0, ge=0.0, le=20.0)
     """mm that a through-cut is cut again"""
 

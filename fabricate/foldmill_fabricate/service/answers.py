@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
@@ -11,7 +10,7 @@ from urllib.parse import quote
 import httpx
 from pydantic import TypeAdapter, ValidationError
 
-from foldmill.errors import FoldmillError
+from foldmill.errors import FoldmillError, InvalidInput
 from foldmill.refusals import explain
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.errors import NoSuchJob
@@ -34,8 +33,29 @@ class Unreachable(FoldmillError, OSError):
 
 
 def quoted(part: str) -> str:
-    """Return a name as one part of a path."""
-    return quote(part, safe="")
+    """Return a name as one part of a path; raises InvalidInput for what cannot be one."""
+    if part in {"", ".", ".."}:
+        raise InvalidInput(f"{part!r} names nothing; give the id or the name as the service told.")
+    try:
+        return quote(part, safe="")
+    except UnicodeError:
+        raise InvalidInput(f"{part!r} is no text in UTF-8.") from None
+
+
+def asked(http: httpx.Client, method: str, path: str, **how: Any) -> httpx.Response:
+    """Return an answer; raises the error that the service tells of, or Unreachable.
+
+    InvalidInput is raised for what cannot be sent.
+    """
+    try:
+        answer = http.request(method, path, **how)
+    except UnicodeError:
+        raise InvalidInput("This holds letters that are no text in UTF-8.") from None
+    except httpx.HTTPError as error:
+        raise unreachable(str(http.base_url), error) from None
+    if not answer.is_success:
+        raise refusal(answer)
+    return answer
 
 
 def refusal(answer: httpx.Response) -> FoldmillError:
@@ -54,13 +74,38 @@ def refusal(answer: httpx.Response) -> FoldmillError:
     return ServiceRefused(detail)
 
 
+def address(url: str) -> str:
+    """Return the address of a service without a last slash; raises InvalidInput for none."""
+    plain = url.strip().rstrip("/")
+    try:
+        known = httpx.URL(plain)
+    except (httpx.InvalidURL, UnicodeError):
+        known = httpx.URL("")
+    if known.scheme not in {"http", "https"} or not known.host:
+        raise InvalidInput(
+            f"{url[:80]!r} is no address of a service: write it as http://127.0.0.1:8765."
+        )
+    return plain
+
+
+def bearer(token: str) -> dict[str, str]:
+    """Return the header that a token travels in, none for none; raises InvalidInput."""
+    plain = token.strip()
+    if not (plain.isascii() and plain.isprintable() and " " not in plain):
+        raise InvalidInput(
+            "This is no token: one is letters, digits, - and _ on one line, as foldmill serve "
+            "--new-token told it."
+        )
+    return {"authorization": f"Bearer {plain}"} if plain else {}
+
+
 def unreachable(url: str, error: httpx.HTTPError) -> Unreachable:
     """Return the sentence on a service that does not answer."""
-    why = str(error) or type(error).__name__
+    why = str(error).rstrip(".") or type(error).__name__
     return Unreachable(f"The service at {url} does not answer: {why}. Does foldmill serve run?")
 
 
-def understood(kind: type[T], content: bytes, url: str) -> T:
+def understood(kind: type[T], content: bytes | str, url: str) -> T:
     """Return an answer as a value; raises ServiceRefused for one of another version's."""
     try:
         return TypeAdapter(kind).validate_json(content)
@@ -97,11 +142,11 @@ def follow(
             for kind, data in _stream(http, after, job):
                 heard_at = time.monotonic()
                 if kind == "job":
-                    event = Event.model_validate_json(data)
+                    event = understood(Event, data, str(http.base_url))
                     after = event.number
                     yield event
                 elif kind == "progress":
-                    tell(json.loads(data))
+                    tell(understood(list[Any], data, str(http.base_url)))
         except httpx.HTTPError as error:
             if time.monotonic() - heard_at > patience:
                 raise unreachable(str(http.base_url), error) from None

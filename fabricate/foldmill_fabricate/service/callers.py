@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, NamedTuple
 
 from fastapi import Depends, Request, Security
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
+from foldmill.errors import UnreadableFile
 from foldmill_fabricate.service.problems import Forbidden
 from foldmill_fabricate.service.security import Policy
 from foldmill_fabricate.service.tokens import Scope
@@ -38,11 +40,24 @@ def caller(request: Request, credentials: _Credentials) -> Caller:
             "foldmill serve --new-token NAME.",
             401,
         )
-    request.state.who = found.name
+    request.state.who, request.state.token = found.name, found
     return Caller(found.name, found.scope)
 
 
 Anyone = Annotated[Caller, Depends(caller)]
+
+
+def still(request: Request) -> Callable[[], bool]:
+    """Return how to ask whether whoever sent a request, and was let in, would be now."""
+    tokens, token = request.app.state.policy.tokens, getattr(request.state, "token", None)
+
+    def counts() -> bool:
+        try:
+            return tokens is None or token in tokens.every
+        except UnreadableFile:
+            return False
+
+    return counts
 
 
 def _require(who: Caller, wanted: Scope) -> Caller:

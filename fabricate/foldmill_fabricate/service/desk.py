@@ -77,20 +77,20 @@ class Desk:
 
     async def check(self, digest: str) -> Report:
         """Check a pattern; what was found is kept."""
-        place = self.storage.pattern(digest)
+        place = await asyncio.to_thread(self.storage.pattern, digest)
         source = place / PATTERN
         found = await self._once(place / CHECK, "check", source, PATTERN, "The check")
         return Report.model_validate(found)
 
     async def verify(self, digest: str, job: Path) -> Verification:
         """Verify the job folder of a plan; what was found is kept."""
-        place = self.storage.plan(digest)
+        place = await asyncio.to_thread(self.storage.plan, digest)
         found = await self._once(place / VERIFIED, "verify", job, JOB, "The verification")
         return Verification.model_validate(found)
 
     async def drawing(self, digest: str, name: str) -> Path:
         """Return a drawing of a pattern, a name of ``DRAWINGS``; it is made once."""
-        place = self.storage.pattern(digest)
+        place = await asyncio.to_thread(self.storage.pattern, digest)
         if not (place / name).is_file():
             async with self.folder() as folder:
                 await asyncio.to_thread(shutil.copy, place / PATTERN, folder)

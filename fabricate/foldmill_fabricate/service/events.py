@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, NamedTuple
 
 from fastapi.sse import ServerSentEvent
 
@@ -24,6 +24,8 @@ from foldmill_fabricate.service.workshop import Workshop
 
 LOOK = 0.3
 """s between two looks for something new."""
+ASK = 5.0
+"""s after which it is asked at the latest whether who follows still may."""
 MOST = 200
 """Who may follow at the same time; half of the requests that are answered at once."""
 RETRY = 1000
@@ -98,18 +100,28 @@ class News:
         self._changed = asyncio.Event()
 
 
-async def follow(
-    shop: Workshop, news: News, after: int, job: str, seconds: float, stopping: asyncio.Event
-) -> AsyncIterator[ServerSentEvent]:
-    """Yield what happened after an event, and what happens, for so many seconds.
+class Following(NamedTuple):
+    """Who has taken a place among those who follow."""
 
-    job : only of this one; empty for all.
-    """
-    loop = asyncio.get_running_loop()
+    job: str
+    """Id of the only one that is followed; empty for all."""
+    after: int
+    """Number of the event that was heard last."""
+    counts: Callable[[], bool] = lambda: True
+    """Tells whether who follows may still do so: a token may be revoked meanwhile."""
+
+
+async def follow(
+    shop: Workshop, news: News, who: Following, seconds: float, stopping: asyncio.Event
+) -> AsyncIterator[ServerSentEvent]:
+    """Yield what happened after an event, and what happens, for so many seconds."""
+    loop, job, after = asyncio.get_running_loop(), who.job, who.after
     end, told = loop.time() + seconds, None
     yield ServerSentEvent(comment="following", retry=RETRY)
     while True:
         seen = news.seen
+        if not who.counts():
+            return
         try:
             events = await asyncio.to_thread(shop.desk.store.events, after, job, _AT_ONCE)
         except LedgerFailed:  # nothing is missed: it is looked again
@@ -128,7 +140,7 @@ async def follow(
         if left <= 0 or stopping.is_set():
             return
         if not events:
-            await news.other_than(seen, left)
+            await news.other_than(seen, min(left, ASK))
 
 
 def _numbered(event: Event) -> ServerSentEvent:

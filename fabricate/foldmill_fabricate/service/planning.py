@@ -83,15 +83,15 @@ class Plans:
         """
         order = await self._ordered(request)
         digest = order.digest
-        place = self._storage.begin_plan(digest, order.head)
-        self._forget_lost(place)
+        place = await asyncio.to_thread(self._storage.begin_plan, digest, order.head)
+        await asyncio.to_thread(self._forget_lost, place)
         if digest not in self._tasks and not (place / DONE).is_file():
             task = asyncio.create_task(self._make(digest, order))
             self._tasks[digest] = task
             await asyncio.sleep(0)  # as far as into the queue, if there is room
             if task.done() and task.exception() is not None:
                 raise task.exception() or AssertionError
-        return self.status(digest)
+        return await asyncio.to_thread(self.status, digest)
 
     def _forget_lost(self, place: Path) -> None:
         """Forget that a plan is done where its job folder is gone; else ask for that folder."""
@@ -176,7 +176,7 @@ class Plans:
         if request.design is not None:
             pattern = (await self._desk.design(request.design)).id
         else:
-            pattern = self._desk.pattern(str(request.pattern)).id
+            pattern = (await asyncio.to_thread(self._desk.pattern, str(request.pattern))).id
         options = request.options.model_dump(mode="json")
         return _Order(pattern, of, on, options, tuple(dict.fromkeys(formats)), request.profile)
 

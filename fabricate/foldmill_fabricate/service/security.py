@@ -18,6 +18,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from foldmill_fabricate.service import problems
 from foldmill_fabricate.service.bounds import MOST_DRAWING, MOST_JSON, MOST_UPLOAD
+from foldmill_fabricate.service.patience import InTime
 from foldmill_fabricate.service.problems import Forbidden, TooLarge
 from foldmill_fabricate.service.tokens import Tokens
 from foldmill_fabricate.service.ways import Ways
@@ -34,6 +35,8 @@ UPLOAD_TYPE = "application/octet-stream"
 """Media type of uploads that are no JSON."""
 _HOST = re.compile(r"(\[(?P<six>[0-9A-Fa-f:.]+)\]|(?P<name>[^\[\]:/@\s]+))(:[0-9]{1,5})?")
 _LOCAL = frozenset({"127.0.0.1", "localhost", "::1"})
+_EVERY = frozenset({"0.0.0.0", "::"})
+"""Addresses that stand for all of a computer's, those that only it reaches among them."""
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 
 
@@ -43,17 +46,22 @@ class Policy:
 
     host: str = "127.0.0.1"
     names: tuple[str, ...] = ()
-    """Other names it is reached by, such as that of a proxy."""
+    """Other names it is reached by, such as that of a proxy; as ``plain_name`` returns them."""
     tokens: Tokens | None = field(default=None, compare=False)
     """Which tokens count; None where none is asked for."""
 
     def knows(self, host: str) -> bool:
         """Tell whether a request may name this host, written with or without a port."""
-        name = _without_port(host)
-        if name in {self.host, *self.names} or (is_local(self.host) and name in _LOCAL):
+        name = plain_name(host)
+        if name in {self.host, *self.names} or (self._is_reached_here and name in _LOCAL):
             return True
-        anywhere = self.host in {"0.0.0.0", "::"} and not self.names
+        anywhere = self.host in _EVERY and not self.names
         return anywhere and bool(name) and self.tokens is not None
+
+    @property
+    def _is_reached_here(self) -> bool:
+        """Whether this computer's own names lead to it, which no stranger can make lead here."""
+        return self.host in _EVERY or is_local(self.host)
 
 
 def is_local(host: str) -> bool:
@@ -64,10 +72,10 @@ def is_local(host: str) -> bool:
         return host == "localhost"
 
 
-def _without_port(host: str) -> str:
-    """Return the name in a Host header; empty where it is none."""
+def plain_name(host: str) -> str:
+    """Return the name in a Host header, small, without port or last dot; empty where it is none."""
     found = _HOST.fullmatch(host)
-    return (found["six"] or found["name"]).lower() if found else ""
+    return (found["six"] or found["name"].removesuffix(".")).lower() if found else ""
 
 
 class Guard:
@@ -84,6 +92,8 @@ class Guard:
             except (Forbidden, TooLarge) as error:
                 await problems.of(error)(scope, receive, send)
                 return
+            if scope["method"] not in _SAFE:
+                receive = InTime(receive)
         elif scope["type"] == "websocket":
             return  # there are none
         await self._app(scope, receive, send)

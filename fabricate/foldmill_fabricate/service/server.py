@@ -22,8 +22,9 @@ from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.plotter.errors import PortUnavailable
 from foldmill_fabricate.service.app import create
+from foldmill_fabricate.service.patience import Patient
 from foldmill_fabricate.service.reach import reached
-from foldmill_fabricate.service.security import Policy, is_local
+from foldmill_fabricate.service.security import Policy, is_local, plain_name
 from foldmill_fabricate.service.tokens import Tokens
 from foldmill_fabricate.service.warming import settle
 from foldmill_fabricate.service.workshop import Workshop
@@ -38,8 +39,9 @@ MOST_AT_ONCE = 400
 def policy(folder: Path, host: str, names: tuple[str, ...], demand: bool) -> Policy:
     """Return who is let in; raises InvalidInput where that would be everybody.
 
-    demand : tokens even from this computer.
+    names : as people write them, with a port or without. demand : tokens even from this computer.
     """
+    names = tuple(_plain(name) for name in names)
     tokens = Tokens(folder)
     if is_local(host) and not demand:
         return Policy(host, names)
@@ -49,6 +51,17 @@ def policy(folder: Path, host: str, names: tuple[str, ...], demand: bool) -> Pol
             "start a cut. Make one first: foldmill serve --new-token NAME --scope operate."
         )
     return Policy(host, names, tokens)
+
+
+def _plain(name: str) -> str:
+    """Return a further name as it is compared; raises InvalidInput for what no Host can be."""
+    plain = plain_name(name)
+    if not plain:
+        raise InvalidInput(
+            f"--name {name!r} is no name that a request can call this service by: give a host "
+            "alone, such as cutter.example or [fd00::1], without http:// or a path."
+        )
+    return plain
 
 
 def serve(
@@ -64,16 +77,22 @@ def serve(
         url = _url(who.host, listening.getsockname()[1])
         workshop.start()  # here, so that a refusal is told before anything is served
         app = create(workshop, who)
-        config = uvicorn.Config(
-            app,
-            log_config=None,
-            access_log=False,
-            server_header=False,
-            timeout_graceful_shutdown=GRACE,
-            limit_concurrency=MOST_AT_ONCE,
-        )
         with suppress(KeyboardInterrupt):  # Ctrl-C is how it ends
-            _Server(config, places.service, url, told).run(sockets=[listening])
+            _Server(configured(app), places.service, url, told).run(sockets=[listening])
+
+
+def configured(app: FastAPI) -> uvicorn.Config:
+    """Return how requests are taken, whatever else is installed: no other reader, no sockets."""
+    return uvicorn.Config(
+        app,
+        http=Patient,
+        ws="none",
+        log_config=None,
+        access_log=False,
+        server_header=False,
+        timeout_graceful_shutdown=GRACE,
+        limit_concurrency=MOST_AT_ONCE,
+    )
 
 
 class _Server(uvicorn.Server):
@@ -102,6 +121,8 @@ class _Server(uvicorn.Server):
         if isinstance(app, FastAPI):
             app.state.stopping.set()  # those who follow what happens are let go
             await asyncio.to_thread(app.state.workshop.stop)  # machines before everything else
+            await app.state.plans.finish()
+            await asyncio.to_thread(app.state.desk.sandbox.close)  # who waits for it is told
         await super().shutdown(sockets)
         LOG.info("ended")
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import re
+import struct
 import zipfile
 import zlib
 from pathlib import Path
@@ -15,6 +17,19 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}")
 _MOST_FILES = 300
 _MOST_BYTES = 128 << 20
 """Of all files together, unpacked."""
+_WAYS = frozenset({zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED})
+"""How files may be packed: what every program writes, and nothing that unpacks a thousandfold."""
+_BROKEN = (
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+    RuntimeError,  # encrypted
+    NotImplementedError,
+    EOFError,
+    ValueError,  # names in no encoding
+    OverflowError,
+)
+"""What is raised where a file is not what its headers say."""
 
 
 def pack(folder: Path) -> bytes:
@@ -37,7 +52,11 @@ def unpack(file: Path, folder: Path) -> None:
             left = _MOST_BYTES
             for one in every:
                 left -= _write(packed, one, folder, left)
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as error:
+    except UnreadableFile:
+        raise
+    except (*_BROKEN, OSError) as error:
+        if isinstance(error, OSError) and error.errno != errno.EINVAL:
+            raise  # of the disk; that one is of a place before the beginning
         raise UnreadableFile(f"This is no ZIP file of a job folder: {error}.") from None
 
 
@@ -47,6 +66,8 @@ def _refuse(every: list[zipfile.ZipInfo]) -> None:
     for one in every:
         if not _NAME.fullmatch(one.filename):
             raise UnreadableFile(f"{one.filename[:60]!r} is no name of a file in a job folder.")
+        if one.compress_type not in _WAYS:
+            raise UnreadableFile(f"{one.filename} is packed in an unusual way; use deflate.")
 
 
 def _write(packed: zipfile.ZipFile, one: zipfile.ZipInfo, folder: Path, left: int) -> int:

@@ -20,6 +20,8 @@ from foldmill_fabricate.jobs import JobState, Places
 from foldmill_fabricate.jobs.tables import EVENTS
 from foldmill_fabricate.service.answers import events
 from foldmill_fabricate.service.events import MOST
+from foldmill_fabricate.service.server import policy
+from foldmill_fabricate.service.tokens import Scope, Tokens
 
 PATIENCE = 60.0
 ROUTE = "/api/v1/events"
@@ -160,6 +162,26 @@ def _resident(process: int) -> int:
     """Return the resident memory of a process, bytes."""
     pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_a_token_that_is_revoked_hears_nothing_more(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("foldmill_fabricate.service.events.ASK", 0.2)
+    tokens = Tokens(place)
+    for name in ("anna", "ben"):
+        tokens.new(name, Scope.VIEW)
+    tokens.revoke("anna")
+    anna = {"authorization": f"Bearer {tokens.new('anna', Scope.VIEW)}"}
+    with running(place, policy(place, "127.0.0.1", (), demand=True)) as client:
+        with client.stream("GET", f"{ROUTE}?seconds=600", headers=anna) as answer:
+            lines = answer.iter_lines()
+            assert next(lines) == ": following"
+            tokens.revoke("anna")
+            assert tokens.new("anna", Scope.OPERATE), "the name is another's now"
+            for _ in lines:
+                pass  # to the end
+        assert client.get(ROUTE, headers=anna).status_code == 401
 
 
 def test_a_service_that_ended_and_was_started_again_goes_on_where_it_was(place: Path) -> None:

@@ -7,18 +7,23 @@ one, and chains of requests where one uses what another answered.
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
+from pydantic import BaseModel
 from services import running
 from soaking import Soak
 
+from foldmill_fabricate.jobs import Reply, Rest, Submission
 from foldmill_fabricate.service.logs import PREFIX
+from foldmill_fabricate.service.models import DesignRequest, PlanRequest, Priority
 from foldmill_fabricate.service.server import policy
 from foldmill_fabricate.service.tokens import Scope, Tokens
 
@@ -112,3 +117,31 @@ def test_an_upload_says_in_the_description_that_it_needs_our_header(
         parameters = described[path]["post"]["parameters"]
         [header] = [each for each in parameters if each["name"].lower() == "x-foldmill"]
         assert (header["in"], header["required"]) == ("header", required)
+
+
+def test_whatever_may_be_sent_is_described_and_shown(
+    service: tuple[httpx.Client, Tokens],
+) -> None:
+    client, _ = service
+    whole = client.get(f"{PREFIX}/openapi.json").json()
+    schemas, shown = whole["components"]["schemas"], set()
+    for path, methods in whole["paths"].items():
+        body = methods.get("post", {}).get("requestBody", {}).get("content", {})
+        name = body.get("application/json", {}).get("schema", {}).get("$ref", "").split("/")[-1]
+        if name and schemas[name].get("properties"):
+            shown.add(name)
+            assert schemas[name].get("examples"), (path, name)
+    assert {"DesignRequest", "PlanRequest", "Submission", "Reply", "Rest"} <= shown
+    for name in {*shown, "Order", "PlanOptions"}:
+        bare = [field for field, one in schemas[name]["properties"].items() if _is_bare(one)]
+        assert not bare, f"{name}: {bare}"
+
+
+@pytest.mark.parametrize("model", [DesignRequest, PlanRequest, Submission, Reply, Rest, Priority])
+def test_what_is_shown_is_taken(model: type[BaseModel]) -> None:
+    for body in model.model_json_schema()["examples"]:
+        assert model.model_validate_json(json.dumps(body)).model_dump(exclude_unset=True)
+
+
+def _is_bare(field: dict[str, Any]) -> bool:
+    return not field.get("description")

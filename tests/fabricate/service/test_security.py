@@ -210,3 +210,33 @@ def test_a_service_for_others_is_reached_by_the_names_it_was_given(tmp_path: Pat
     assert who.knows("CUTTER.example")
     assert not who.knows("evil.example")
     assert not Policy("192.168.1.5").knows("127.0.0.1")
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::"])
+def test_a_service_for_others_is_reached_where_it_says_it_is(tmp_path: Path, host: str) -> None:
+    Tokens(tmp_path).new("one", Scope.VIEW)
+    who = policy(tmp_path, host, ("cutter.example",), demand=False)
+    assert who.knows("127.0.0.1:8765")
+    assert who.knows("[::1]:8765")
+    assert not who.knows("127.0.0.1.evil.example")
+
+
+@pytest.mark.parametrize(
+    ("name", "asked"),
+    [
+        ("Cutter.Example", "cutter.example:8765"),
+        ("cutter.example:8443", "cutter.example:8443"),
+        ("cutter.example:8443", "cutter.example"),
+        ("cutter.example.", "cutter.example"),
+        ("cutter.example", "Cutter.Example.:80"),
+        ("[FD00::1]", "[fd00::1]:8765"),
+    ],
+)
+def test_a_name_counts_however_it_is_written(tmp_path: Path, name: str, asked: str) -> None:
+    assert policy(tmp_path, "127.0.0.1", (name,), demand=False).knows(asked)
+
+
+@pytest.mark.parametrize("name", ["http://cutter.example", "cutter.example/shop", "", "a b"])
+def test_what_no_request_can_call_it_by_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(InvalidInput, match="give a host alone"):
+        policy(tmp_path, "127.0.0.1", (name,), demand=False)

@@ -7,13 +7,18 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from foldmill.finding import Finding, Severity
-from foldmill_fabricate.service.models.wire import Digest, Slug, Wire
+from foldmill_fabricate.service.models.wire import Digest, Slug, Wire, example
 
 
 class DesignRequest(Wire):
     """A design to be made."""
 
+    model_config = example(
+        {"family": "rotational", "preset": "star-n6"}, {"family": "waterbomb", "params": {}}
+    )
+
     family: Slug
+    """Which of `families` it is of."""
     preset: Slug | None = None
     """Start from this preset, else from the family's defaults."""
     params: dict[str, Any] = Field(default_factory=dict)

@@ -9,7 +9,7 @@ from pydantic import Field
 from foldmill.finding import Finding
 from foldmill_fabricate.plan_options import PlanOptions
 from foldmill_fabricate.service.models.patterns import DesignRequest, Report
-from foldmill_fabricate.service.models.wire import Digest, Slug, Wire
+from foldmill_fabricate.service.models.wire import Digest, Slug, Wire, example
 
 
 class Verification(Report):
@@ -21,12 +21,24 @@ class Verification(Report):
 class PlanRequest(Wire):
     """A sheet to be planned, of a pattern that is kept or of a design."""
 
+    model_config = example(
+        {
+            "design": {"family": "rotational", "preset": "star-n6"},
+            "material": "pp-0.75",
+            "machine": "generic-hpgl-600",
+        }
+    )
+
     pattern: Digest | None = None
     """Id of a pattern; either this or a design."""
     design: DesignRequest | None = None
+    """A design to be made first; either this or a pattern."""
     material: Slug
+    """Which of `materials` the sheet is of."""
     machine: Slug
+    """Which of `machines` it is planned for."""
     options: PlanOptions = PlanOptions()
+    """How it is planned, where not as the material and the machine have it."""
     formats: tuple[Slug, ...] | None = Field(None, min_length=1, max_length=20)
     """Files to write; by default svg, dxf and the machine's own programs."""
     profile: Slug = "foldmill"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from foldmill_fabricate.service.models.wire import Wire
+from foldmill_fabricate.service.models.wire import Wire, example
 
 
 class ProgramRow(Wire):
@@ -57,6 +57,8 @@ class PlotterStatus(Wire):
 
 class Priority(Wire):
     """A place in the queue."""
+
+    model_config = example({"priority": 5})
 
     priority: int = Field(ge=-1000, le=1000)
     """Jobs of higher priority are made first."""

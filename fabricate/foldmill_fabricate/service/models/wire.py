@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -19,6 +19,11 @@ class Wire(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False
     )
+
+
+def example(*bodies: dict[str, Any]) -> ConfigDict:
+    """Return the configuration of a value that the description of the API shows so."""
+    return ConfigDict(json_schema_extra={"examples": [*bodies]})
 
 
 class Problem(Wire):

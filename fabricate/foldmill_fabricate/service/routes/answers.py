@@ -46,7 +46,7 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 READING: Final = problems(400, 401, 403, 404, 405, 421, 422, 500, 503)
 """What a route may answer that changes nothing."""
-CHANGING: Final = READING | problems(409, 411, 413, 415)
+CHANGING: Final = READING | problems(408, 409, 411, 413, 415)
 """What a route may answer that takes a body."""
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 
-from foldmill_fabricate.service.callers import Viewer
-from foldmill_fabricate.service.events import News, follow
+from foldmill_fabricate.service.callers import Viewer, still
+from foldmill_fabricate.service.events import Following, News, follow
 from foldmill_fabricate.service.ids import EventNumber, OneJob
 from foldmill_fabricate.service.routes.answers import READING, workshop
 from foldmill_fabricate.service.workshop import Workshop
@@ -18,15 +18,6 @@ from foldmill_fabricate.service.workshop import Workshop
 ROUTER = APIRouter(tags=["jobs"])
 Shop = Annotated[Workshop, Depends(workshop)]
 _MOST_S = 86_400.0
-
-
-class Following(NamedTuple):
-    """Who has taken a place among those who follow."""
-
-    job: str
-    """Id of the only one that is followed; empty for all."""
-    after: int
-    """Number of the event that was heard last."""
 
 
 async def _place(
@@ -43,7 +34,7 @@ async def _place(
     news: News = request.app.state.news
     await news.enter(heard)
     try:
-        yield Following(name, heard)
+        yield Following(name, heard, still(request))
     finally:
         news.leave()
 
@@ -61,5 +52,5 @@ async def events(
 ) -> AsyncIterator[ServerSentEvent]:
     """Follow what happens to jobs, from the event after the one that was heard last on."""
     state = request.app.state
-    async for event in follow(shop, state.news, asked.after, asked.job, seconds, state.stopping):
+    async for event in follow(shop, state.news, asked, seconds, state.stopping):
         yield event

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 from mimetypes import guess_type
+from pathlib import Path
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Path, Query, Response
+from fastapi import APIRouter, Depends, Query, Response
+from fastapi import Path as InPath
 from fastapi.responses import FileResponse
 
 from foldmill.errors import UnknownName
 from foldmill_fabricate.jobs import JobRecord, JobState, Question, Reply, Rest, Submission
 from foldmill_fabricate.jobs.values import Happening
 from foldmill_fabricate.passes import Face
+from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.service.callers import Caller, Operator, Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
 from foldmill_fabricate.service.ids import JobId, OneJob, QuestionId, SheetId
@@ -28,7 +32,7 @@ Who = Annotated[
     str, Query(max_length=60, description="Who says so, where no token tells; for the history.")
 ]
 _SVG = {"content": {"image/svg+xml": {"schema": {"type": "string"}}}, "description": "SVG, mm."}
-Name = Annotated[str, Path(max_length=200)]
+Name = Annotated[str, InPath(max_length=200)]
 
 
 def _who(caller: Caller, said: str) -> str:
@@ -150,12 +154,17 @@ async def as_cut(
     _: Viewer,
 ) -> Response:
     """Get a drawing of a face as it is cut: what is certain, doubtful, left."""
+    folder, cut = await asyncio.to_thread(_sheet_of, shop, job, sheet)
+    drawn = await at.as_cut(folder, cut, face)
+    return Response(drawn, media_type="image/svg+xml")
+
+
+def _sheet_of(shop: Workshop, job: str, sheet: str) -> tuple[Path, SheetRecord]:
+    """Return the job folder of a job and one of its sheets; raises NoSuch for none."""
     found = shop.desk.job(job)
     if sheet.upper() not in found.sheets:
         raise NoSuch(str(UnknownName.of(f"sheet of job {found.id}", sheet, found.sheets)))
-    cut = shop.desk.sheet(sheet)
-    drawn = await at.as_cut(shop.desk.plans.folder(found.plan), cut, face)
-    return Response(drawn, media_type="image/svg+xml")
+    return shop.desk.plans.folder(found.plan), shop.desk.sheet(sheet)
 
 
 @ROUTER.get("/jobs/{job}/transcripts", responses=READING)

@@ -9,9 +9,9 @@ from fastapi.responses import FileResponse
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
+from foldmill_fabricate.service.ids import PatternId
 from foldmill_fabricate.service.models import (
     DesignRequest,
-    Digest,
     Pattern,
     Report,
     Upload,
@@ -23,7 +23,6 @@ from foldmill_fabricate.service.routes.answers import (
     Declared,
     binary,
     desk,
-    problems,
 )
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
@@ -47,7 +46,7 @@ async def design(request: DesignRequest, at: At, _: Submitter, response: Respons
     return _made(await at.design(request), response)
 
 
-@ROUTER.post("/patterns", status_code=201, responses=CHANGING | problems(408), openapi_extra=_BODY)
+@ROUTER.post("/patterns", status_code=201, responses=CHANGING, openapi_extra=_BODY)
 async def upload(
     request: Request,
     at: At,
@@ -70,13 +69,13 @@ def patterns(at: At, _: Viewer) -> list[Pattern]:
 
 
 @ROUTER.get("/patterns/{pattern}", responses=READING)
-def pattern(pattern: Digest, at: At, _: Viewer) -> Pattern:
+def pattern(pattern: PatternId, at: At, _: Viewer) -> Pattern:
     """Tell what is known of a pattern."""
     return at.pattern(pattern)
 
 
 @ROUTER.get("/patterns/{pattern}/check", responses=READING)
-async def check(pattern: Digest, at: At, _: Viewer) -> Report:
+async def check(pattern: PatternId, at: At, _: Viewer) -> Report:
     """Check that a pattern folds: developable, planar, isometric, free of penetration."""
     return await at.check(pattern)
 
@@ -86,7 +85,7 @@ async def check(pattern: Digest, at: At, _: Viewer) -> Report:
     responses=READING | binary("application/json", "The FOLD file."),
     response_class=FileResponse,
 )
-def fold(pattern: Digest, at: At, _: Viewer) -> FileResponse:
+def fold(pattern: PatternId, at: At, _: Viewer) -> FileResponse:
     """Get the FOLD file of a pattern."""
     return FileResponse(at.storage.pattern(pattern) / PATTERN, media_type="application/json")
 
@@ -96,7 +95,7 @@ def fold(pattern: Digest, at: At, _: Viewer) -> FileResponse:
     responses=READING | binary("application/octet-stream", "The drawing, as its name says."),
     response_class=FileResponse,
 )
-async def drawing(pattern: Digest, name: Drawing, at: At, _: Viewer) -> FileResponse:
+async def drawing(pattern: PatternId, name: Drawing, at: At, _: Viewer) -> FileResponse:
     """Get a drawing of a pattern, or a mesh of its folded form."""
     return FileResponse(await at.drawing(pattern, name), media_type=DRAWINGS[name])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from mimetypes import guess_type
 from typing import Annotated, Any
 
@@ -12,8 +13,8 @@ from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.service.bounds import MOST_DRAWING
 from foldmill_fabricate.service.callers import Submitter, Viewer
 from foldmill_fabricate.service.desk import Desk
+from foldmill_fabricate.service.ids import PlanId
 from foldmill_fabricate.service.models import (
-    Digest,
     KeptPlan,
     PlanRequest,
     PlanState,
@@ -29,7 +30,6 @@ from foldmill_fabricate.service.routes.answers import (
     binary,
     desk,
     plans,
-    problems,
 )
 from foldmill_fabricate.service.security import UPLOAD_TYPE
 
@@ -55,7 +55,7 @@ async def begin(request: PlanRequest, those: Those, _: Submitter, response: Resp
     return status
 
 
-@ROUTER.post("/kept", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
+@ROUTER.post("/kept", status_code=201, responses=CHANGING, openapi_extra=_FILE)
 async def keep(
     request: Request,
     those: Those,
@@ -73,7 +73,7 @@ async def keep(
         return await those.keep(folder)
 
 
-@ROUTER.post("/drawn", status_code=201, responses=CHANGING | problems(408), openapi_extra=_FILE)
+@ROUTER.post("/drawn", status_code=201, responses=CHANGING, openapi_extra=_FILE)
 async def draw(
     request: Request,
     those: Those,
@@ -107,17 +107,17 @@ def every(those: Those, _: Viewer) -> list[PlanStatus]:
 
 
 @ROUTER.get("/{plan}", responses=READING)
-def status(plan: Digest, those: Those, _: Viewer) -> PlanStatus:
+def status(plan: PlanId, those: Those, _: Viewer) -> PlanStatus:
     """Tell how a plan stands, and of one that is done what it is."""
     return those.status(plan)
 
 
 @ROUTER.get("/{plan}/verification", responses=READING)
 async def verification(
-    plan: Digest, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
+    plan: PlanId, those: Those, at: Annotated[Desk, Depends(desk)], _: Viewer
 ) -> Verification:
     """Replay the programs of a plan on a virtual sheet, and derive the plan again."""
-    return await at.verify(plan, those.job(plan))
+    return await at.verify(plan, await asyncio.to_thread(those.job, plan))
 
 
 @ROUTER.get(
@@ -126,7 +126,7 @@ async def verification(
     response_class=FileResponse,
 )
 def file(
-    plan: Digest,
+    plan: PlanId,
     name: Annotated[str, Path(max_length=200, description="As the plan's files tell it.")],
     those: Those,
     _: Viewer,

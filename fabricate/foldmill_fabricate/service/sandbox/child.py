@@ -69,7 +69,8 @@ def _outcome(call: str, folder: Path, limits: Limits) -> dict[str, Any]:
         with confining.refusing(limits, "The work"):
             return {"value": _function(call)(folder, **arguments)}
     except FoldmillError as error:
-        return {"kind": type(error).__name__, "refused": str(error)}
+        told = str(error).replace(f"{folder}{os.sep}", "")  # where it lies is nobody's business
+        return {"kind": type(error).__name__, "refused": told}
     except OSError as error:
         if is_full(error):
             return {"kind": "DiskFull", "refused": sentence(folder)}
