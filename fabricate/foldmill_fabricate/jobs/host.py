@@ -91,8 +91,8 @@ class Host:
         return {PLANNING: (self._take_order, self._plan), **made}
 
     def _due(self) -> dict[str, int]:
-        self._keep()
         """Return how many jobs of each queue are due; those nobody can work on any more end."""
+        self._keep()
         found = self.store.standing()
         for job in found:
             if job.is_abandoned(self.plotters):
