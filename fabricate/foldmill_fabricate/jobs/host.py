@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from foldmill.errors import FoldmillError
 from foldmill.refusals import explain
-from foldmill_fabricate.jobs.alone import alone, alone_in
+from foldmill_fabricate.jobs.alone import alone, alone_in, plotter_name
 from foldmill_fabricate.jobs.engine import PLANNING, Engine, Make, Take
 from foldmill_fabricate.jobs.errors import Cancelled, JobRefused, Leave
 from foldmill_fabricate.jobs.hands import LOOK
@@ -95,10 +95,14 @@ class Host:
         self._keep()
         found = self.store.standing()
         for job in found:
-            if job.is_abandoned(self.plotters):
+            if job.is_abandoned(self.plotters) and not self._is_elsewhere(job.plotter):
                 self.store.end_abandoned(job.id)
         due = Counter(f"plotter-{job.plotter}" for job in found if job.is_due)
         return {**due, PLANNING: sum(job.state is JobState.PLANNING for job in found)}
+
+    def _is_elsewhere(self, plotter: str) -> bool:
+        """Tell whether another computer works on a plotter's jobs: it ends them itself."""
+        return self.store.ledger.is_reserved(plotter_name(plotter))
 
     def _take(self, queue: str) -> str:
         try:

@@ -159,6 +159,29 @@ def test_late_answers_never_make_a_stroke_certain_before_which_bytes_were_lost(
     assert book.acked < sent[:whole].count(b"PU")
 
 
+def test_a_cutter_is_not_taken_for_ready_by_what_it_told_somebody_else(
+    machine: Make, plugged: Plug
+) -> None:
+    cutter = machine("silhouette-like", lift_time=0.2)
+    program = b"".join(
+        b"M%d,100\x03D%d,3000,%d,100\x03" % (x, x, x + 20) for x in range(100, 2500, 40)
+    )
+    simulator = Simulator(cutter)
+    early: list[int] = []
+
+    class Certain:
+        def advance(self, _sent: int, acked: int) -> None:
+            ended = simulator.device.idle and simulator.sheet.under_way  # its tool is still down
+            early.append(acked - len(simulator.sheet.strokes[Face.FRONT]) - ended)
+
+    with open_port(plugged(simulator), cutter) as port:
+        wire = Slow(port, lambda _: 0.0)
+        wire.answered_before(b"0\x03")
+        send(program, wire, cutter, book=Certain())
+    assert len(early) > 60
+    assert max(early) <= 0
+
+
 @pytest.mark.parametrize(
     "stale", [b"1000\r", b"0\r", b"16\r", b"7,7,0\r", b"7,7,0\r0\r", b"7,7,0\r0\r0\r"]
 )
