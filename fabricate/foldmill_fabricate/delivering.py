@@ -20,7 +20,7 @@ from foldmill_fabricate.gates import Request
 from foldmill_fabricate.operators import Operator, Verdict
 from foldmill_fabricate.passes import Face, Gate, ProgramFile, SetUp
 from foldmill_fabricate.plotter import link, sender
-from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused
+from foldmill_fabricate.plotter.errors import Fenced, LedgerRefused, Stopped
 from foldmill_fabricate.plotter.holding import Holder
 from foldmill_fabricate.plotter.ledger import (
     Ledger,
@@ -33,7 +33,7 @@ from foldmill_fabricate.plotter.ledger import (
     account,
 )
 from foldmill_fabricate.plotter.ledger.alone import alone, alone_on, by_hand, own_ledger
-from foldmill_fabricate.plotter.ledger.guarding import guarded
+from foldmill_fabricate.plotter.ledger.guarding import Lying, guarded
 from foldmill_fabricate.plotter.sender import Delivery, Progress, Status
 from foldmill_fabricate.plotter.transcript import recorded
 from foldmill_fabricate.plotter.wish import Wish
@@ -249,12 +249,16 @@ class _Work:
         request = bench.request(Gate.TOOL, self.part.face, setup)
         asked = not bench.test_cut and not bench.job.plan.material.tested
         wanted = bench.test_cut or (asked and bench.operator.wants_test_cut(request))
+        if asked and not wanted:
+            declined = {"set-up": setup.name, "verdict": "not wanted"}
+            self.ledger.answer(self.sheet, self.number, TEST_CUT, declined, bench.operator.who)
+        make = bench.job.trier or trials.trial_program
         while wanted:
             attempt = trials.begun(self.ledger.answers(self.sheet), setup)
-            program = trials.trial_program(bench.job, self.part.face, setup, attempt)
+            program = make(bench.job, self.part.face, setup, attempt)
             told = {"set-up": setup.name, "attempt": attempt + 1}
             self.ledger.answer(self.sheet, self.number, trials.BEGUN, told, bench.operator.who)
-            delivery = sender.send(program, bench.port, bench.job.plan.machine, wish=bench.wish)
+            delivery = self._send_trial(program)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
@@ -263,6 +267,19 @@ class _Work:
             if verdict is Verdict.STOP:
                 raise CannotSend(trials.BAD.format(setup.name))
             wanted = verdict is Verdict.AGAIN
+
+    def _send_trial(self, program: bytes) -> Delivery:
+        """Deliver a test cut, for as long as nobody gives the sheet up."""
+        bench, lying = self.bench, Lying(self.ledger, self.sheet)
+        if lost := lying.loss():
+            raise lost
+        try:
+            with guarded(lying, bench.wish) as wish:
+                return sender.send(program, bench.port, bench.job.plan.machine, wish=wish)
+        except Stopped as error:
+            if lost := lying.loss():
+                raise type(lost)(f"{lost} {error}") from None
+            raise
 
     def send(self, tell: Callable[[Progress], None]) -> Delivery:
         """Deliver it; however that ends, the ledger knows."""

@@ -13,7 +13,7 @@ from foldmill import CreasePattern
 from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.marks import MarkFit, check_witness, fit_marks
-from foldmill_fabricate.passes import Face, Plan
+from foldmill_fabricate.passes import Face, Plan, SetUp
 from foldmill_fabricate.verify import JobFiles, Verification, read_folder, verify, verify_files
 from foldmill_fabricate.writers import writer
 
@@ -21,6 +21,8 @@ Fitter = Callable[["Job", MarkFit], tuple[Mapping[str, bytes], Verification | No
 """Writes the reverse of a job anew to fit a sheet, and proves it; raises CannotSend likewise."""
 Prover = Callable[[Path, JobFiles], Verification | None]
 """Proves what was read of a folder; raises CannotSend where it must not be sent."""
+Trier = Callable[["Job", Face, SetUp, int], bytes]
+"""Makes the program of a test cut for a set-up, and proves it, as ``trials.trial_program``."""
 
 
 def refit(job: Job, fit: MarkFit) -> tuple[Mapping[str, bytes], Verification]:
@@ -59,6 +61,8 @@ class Job:
     """What it was fitted to, carrier coordinates in mm."""
     fitter: Fitter = refit
     """By default in this process."""
+    trier: Trier | None = None
+    """Of test cuts; likewise."""
 
     @property
     def id(self) -> str:
@@ -90,12 +94,13 @@ def open_job(
     witness: tuple[float, float] | None = None,
     prover: Prover = prove,
     fitter: Fitter = refit,
+    trier: Trier | None = None,
 ) -> Job:
     """Read a job folder and prove it; raises CannotSend where it must not be sent.
 
     marks : where registration marks are seen after the flip, carrier coordinates in mm; the reverse
     programs are written anew to fit, and proved again. witness : where the witness mark is seen.
-    prover, fitter : by default in this process.
+    prover, fitter, trier : by default in this process.
     """
     files = read_folder(path)
     plan = files.plan
@@ -108,7 +113,7 @@ def open_job(
     programs = {part.name: files.programs[part.name] for part in plan.programs}
     if witness is not None:
         check_witness(plan, witness)
-    job = Job(plan, programs, proof, None, files.pattern, path, fitter=fitter)
+    job = Job(plan, programs, proof, None, files.pattern, path, fitter=fitter, trier=trier)
     return job.fitted(marks) if marks else job
 
 

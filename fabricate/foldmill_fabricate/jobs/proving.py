@@ -1,7 +1,8 @@
 """Prove a job folder in a process of its own, so that machines at work are never kept waiting.
 
-So is a reverse that is fitted to measured marks: it is written anew there, and proved. What was
-proved is told by a digest of every byte that counts; what is sent must have the same.
+So is a reverse that is fitted to measured marks, and a test cut: they are written there, and
+proved. What was proved is told by a digest of every byte that counts; what is sent must have the
+same. One that this very process has had proved before is not proved again.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from typing import Any
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.jobs.elsewhere import Late, Silent, done, serve
 from foldmill_fabricate.marks import MarkFit
-from foldmill_fabricate.passes import Fit
+from foldmill_fabricate.passes import Face, Fit, SetUp
 from foldmill_fabricate.sending import Job, prove, refit
+from foldmill_fabricate.trials import trial_program
 from foldmill_fabricate.verify import JobFiles, read_folder
 
 _PATIENCE = 3600.0
@@ -26,16 +28,21 @@ _PATIENCE = 3600.0
 class Elsewhere:
     """Proves a folder, and fits what was proved, in other processes.
 
-    heed : called again and again meanwhile; what it raises ends the work.
+    heed : called again and again meanwhile; what it raises ends the work. proven : digests of what
+    was proved before, to which it adds.
     """
 
-    def __init__(self, heed: Callable[[], None]) -> None:
+    def __init__(self, heed: Callable[[], None], proven: set[str] | None = None) -> None:
         self._heed, self._digest = heed, ""
+        self._proven = set[str]() if proven is None else proven
 
     def prove(self, path: Path, files: JobFiles) -> None:
         """Prove a folder; raises CannotSend where it must not be sent."""
-        self._told({"path": str(path)}, path, digest(files))
-        self._digest = digest(files)
+        whole = digest(files)
+        if whole not in self._proven:
+            self._told({"path": str(path)}, path, whole)
+            self._proven.add(whole)
+        self._digest = whole
 
     def fit(self, job: Job, fit: MarkFit) -> tuple[Mapping[str, bytes], None]:
         """Return the programs of a job, its reverse fitted and all of it proved.
@@ -46,6 +53,17 @@ class Elsewhere:
         order = {"path": str(job.path), "fit": fit.fit.model_dump()}
         told = self._told(order, job.path, self._digest)
         return {name: b64decode(data) for name, data in told["programs"].items()}, None
+
+    def trial(self, job: Job, face: Face, setup: SetUp, attempt: int) -> bytes:
+        """Return the program of a test cut, proved.
+
+        Raises CannotSend where the waste has no room for it, where it does not verify, and where
+        the folder is not any more as it was proved.
+        """
+        order: dict[str, Any] = {"path": str(job.path), "face": face.value}
+        order |= {"trial": setup.number, "attempt": attempt}
+        order |= {"fit": job.fit.fit.model_dump()} if job.fit else {}
+        return b64decode(self._told(order, job.path, self._digest)["program"])
 
     def _told(self, order: dict[str, Any], path: Path, digest: str) -> dict[str, Any]:
         try:
@@ -80,17 +98,23 @@ def digest(files: JobFiles) -> str:
 
 
 def _proved(told: dict[str, Any]) -> dict[str, Any]:
-    """Prove a folder in this process, or what of it is fitted; raises FoldmillError."""
+    """Prove a folder in this process, or what is made of it; raises FoldmillError."""
     path = Path(told["path"])
     files = read_folder(path)
     said: dict[str, Any] = {"digest": digest(files)}
-    if "fit" not in told:
-        prove(path, files)
-        return said
-    fit = MarkFit(Fit.model_validate(told["fit"]), 1.0, 0.0)
+    fit = MarkFit(Fit.model_validate(told["fit"]), 1.0, 0.0) if "fit" in told else None
     known = [part.name for part in files.plan.programs if part.name in files.programs]
     named = {name: files.programs[name] for name in known}
-    programs, _ = refit(Job(files.plan, named, None, None, files.pattern, path), fit)
+    job = Job(files.plan, named, None, fit, files.pattern, path)
+    if "trial" in told:
+        every = {one.number: one for work in job.plan.passes for one in work.setups}
+        setup = every[told["trial"]]
+        data = trial_program(job, Face(told["face"]), setup, told["attempt"])
+        return said | {"program": b64encode(data).decode()}
+    if fit is None:
+        prove(path, files)
+        return said
+    programs, _ = refit(job, fit)
     return said | {"programs": {name: b64encode(data).decode() for name, data in programs.items()}}
 
 

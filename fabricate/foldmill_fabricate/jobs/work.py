@@ -59,6 +59,8 @@ class Shop:
     leaving: Event
     """Set when the process is to end: machines are stopped, and what was under way is in doubt."""
     tell: Tell = field(default_factory=Tell)
+    proven: set[str] = field(default_factory=set)
+    """Digests of the folders that were proved for this very process."""
 
 
 def work(shop: Shop, job: JobRecord, token: int, plotter: Plotter) -> None:
@@ -177,8 +179,9 @@ class _Work:
         """Prove the plan, once: what was proved is held here, and is what is sent."""
         if self.opened is None:
             folder = self.shop.plans.folder(self.job.plan)
-            elsewhere = Elsewhere(self.hands.heed)
-            self.opened = open_job(folder, prover=elsewhere.prove, fitter=elsewhere.fit)
+            there = Elsewhere(self.hands.heed, self.shop.proven)
+            prover, fitter, trier = there.prove, there.fit, there.trial
+            self.opened = open_job(folder, prover=prover, fitter=fitter, trier=trier)
         return self.opened
 
     def _lay(self, opened: Job) -> str:

@@ -19,8 +19,10 @@ from fabricate.jobs.terminal import plain, said, typing
 from fabricate.jobs.workshop import PATIENCE, workshop
 from sqlalchemy import create_engine, text
 
-from foldmill_fabricate.jobs import JobState, Places
+from foldmill_fabricate.jobs import JobState, Places, Submission
 from foldmill_fabricate.jobs.alone import is_worked_on
+from foldmill_fabricate.jobs.host import Host
+from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.plotter.errors import PortUnavailable, Spoiled
 from foldmill_fabricate.plotter.holding import Held, Holder
 from foldmill_fabricate.plotter.ledger import Ledger, Program, State, words
@@ -177,3 +179,24 @@ def test_each_computer_has_a_name_and_plotters_that_no_other_has(
         shop.check_ledger()
         shop.end()
         assert not is_worked_on(shop.places, shop.at.store)
+
+
+def test_a_job_that_is_cancelled_is_ended_by_the_computer_that_has_its_plotter(
+    database: str, tmp_path: Path
+) -> None:
+    """The others end it only where no computer has that plotter any more."""
+    host = Host(Places(tmp_path, database), {}, "two")
+    asked, about = Submission(plan="0" * 64, plotter="bench"), About("A box", "pp", MACHINE)
+    with Ledger(database).reserved(["plotter bench"], JOB):
+        name = host.store.submit(asked, about).id
+        host.store.take("bench")
+        host.store.cancel(name)
+        host.start()
+        time.sleep(1.5)  # it looks twice a second
+        assert host.store.job(name).state is JobState.RUNNING
+    end = time.monotonic() + PATIENCE
+    while host.store.job(name).state is JobState.RUNNING:
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    assert "bench is no longer there" in host.store.job(name).note
+    host.stop()

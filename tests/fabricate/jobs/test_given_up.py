@@ -74,6 +74,32 @@ def test_a_question_about_a_sheet_that_is_given_up_is_withdrawn(tmp_path: Path) 
         shop.end()
 
 
+def test_a_test_cut_stops_too_and_nothing_of_the_part_is_cut(tmp_path: Path) -> None:
+    with workshop(tmp_path, speed_up=SPEED_UP / 60) as shop:
+        shop.eager = True
+        sheet = under_way(shop)
+        ledger = shop.at.store.ledger
+        assert not ledger.sheet(sheet).is_begun, "it is the test cut"
+        ledger.give_up(sheet, "Ada")
+        (text,) = asked(shop, [Kind.ANOTHER, Kind.TROUBLE, Kind.JUDGE])
+        assert f"Sheet {sheet} was given up while a test cut was made in it" in text
+        assert "drop what it has and to lift its tool" in text
+        shop.rest()
+        assert not shop.simulator.sheet.under_way, "its tool is up"
+        assert not ledger.sheet(sheet).is_begun
+        shop.end()
+
+
+def test_that_no_test_cut_was_wanted_is_on_the_record(tmp_path: Path) -> None:
+    with workshop(tmp_path, speed_up=SPEED_UP) as shop:
+        sheet = under_way(shop)
+        happened = [what for _, _, what in shop.at.store.ledger.history(sheet)]
+        declined = [what for what in happened if what.startswith("test-cut:")]
+        assert declined
+        assert all(what.endswith("verdict not wanted") for what in declined)
+        shop.end()
+
+
 def test_a_sheet_that_is_sent_by_hand_is_given_up_by_another_process(tmp_path: Path) -> None:
     with workshop(tmp_path, speed_up=SLOW) as shop:
         shop.at.cancel(shop.job)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fabricate.jobs.test_work import asked, at_work
 
 from foldmill_fabricate import sending
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.jobs import Desk, JobState, Kind, Reply, Submission
+from foldmill_fabricate.jobs import Desk, JobState, Kind, Reply, Submission, elsewhere, proving
 from foldmill_fabricate.jobs.errors import Leave
 from foldmill_fabricate.jobs.proving import Elsewhere
 from foldmill_fabricate.jogging import expected_marks
+from foldmill_fabricate.passes import Face
 from foldmill_fabricate.sending import Job, open_job
+from foldmill_fabricate.trials import trial_program
 
 AWRY = (0.3, -0.2)
 """mm by which a sheet lies off after the flip."""
@@ -59,6 +63,47 @@ def test_what_cannot_be_fitted_is_refused_elsewhere_in_the_same_words(
     program.write_bytes(program.read_bytes() + b"PU0,0;\n")
     with pytest.raises(CannotSend):
         beside.fitted(seen(here))
+
+
+def test_a_test_cut_that_is_made_elsewhere_is_the_one_that_is_made_here(
+    job_folder: Path,
+) -> None:
+    """Of the front, and of a reverse that lies awry; each in a place of its own."""
+    here, there = opened(job_folder), Elsewhere(lambda: None)
+    beside = open_job(job_folder, prover=there.prove, fitter=there.fit)
+    front, reverse = (work.setups[-1] for work in here.plan.passes)
+    fitted = here.fitted(seen(here))
+    for job, face, setup, attempt in [
+        (here, Face.FRONT, front, 1),
+        (fitted, Face.REVERSE, reverse, 0),
+    ]:
+        other = replace(beside, fit=job.fit)
+        made = there.trial(other, face, setup, attempt)
+        assert made == trial_program(job, face, setup, attempt)
+
+
+def test_what_was_proved_once_is_not_proved_again_unless_a_byte_of_it_is_another(
+    job_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, proven = tmp_path / "job", set[str]()
+    shutil.copytree(job_folder, folder)
+    opened(folder, Elsewhere(lambda: None, proven))
+    assert len(proven) == 1
+    asked_for = set[str]()
+
+    def done(module: str, *order: Any) -> dict[str, Any]:
+        asked_for.add(module)
+        return elsewhere.done(module, *order)
+
+    monkeypatch.setattr(proving, "done", done)
+    assert opened(folder, Elsewhere(lambda: None, proven)).programs
+    assert not asked_for
+    program = folder / opened(folder).plan.programs[0].name
+    program.write_bytes(program.read_bytes() + b"PU0,0;\n")
+    with pytest.raises(CannotSend):
+        opened(folder, Elsewhere(lambda: None, proven))
+    assert asked_for
+    assert len(proven) == 1
 
 
 def test_fitting_ends_with_the_process_that_wants_it(job_folder: Path) -> None:

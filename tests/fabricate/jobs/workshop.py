@@ -164,6 +164,8 @@ class Workshop:
     careless: bool = False
     forgetful: bool = False
     """Whether nobody switches a machine off and on that holds half an instruction."""
+    eager: bool = False
+    """Whether test cuts are wanted."""
     database: str = ""
     speed_up: float = SPEED_UP
     job: str = ""
@@ -296,7 +298,7 @@ class Workshop:
             self.rest()
             self._lay(question)
         elif question.kind is Kind.TRY:
-            reply = Reply(ok=False)
+            reply = Reply(ok=self.eager)
         elif question.kind is Kind.TROUBLE:
             self.troubles.append(question.text)
             time.sleep(1.0)

@@ -2,7 +2,8 @@
 
 What is known is a lower bound: the last answer less all that was written since its question was
 written. One question at a time. ESC.E stands in for ESC.B once after each proof: strokes are
-certain only when no byte before their proof was lost or garbled on the line.
+certain only when no byte before their proof was lost or garbled on the line. What is answered late
+is told from what was dropped by the kind of the next question (``questions``).
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ from math import ceil, inf
 from foldmill_fabricate.plotter.errors import LineDisturbed, NoAnswer, PlotterError
 from foldmill_fabricate.plotter.handshakes.feed import IN_FLIGHT, SLACK
 from foldmill_fabricate.plotter.handshakes.hp import LEVER_UP, MET, PAUSED, HpSession
-from foldmill_fabricate.plotter.handshakes.losses import lost
+from foldmill_fabricate.plotter.handshakes.losses import disturbed, lost
 from foldmill_fabricate.plotter.handshakes.proving import Proving
+from foldmill_fabricate.plotter.handshakes.questions import Question, Questions
 from foldmill_fabricate.plotter.languages import reserve
 from foldmill_fabricate.plotter.program import Job
 from foldmill_fabricate.plotter.session import PATIENCE, SILENCE
@@ -53,12 +55,9 @@ class Asked(Proving):
         """The last answer, and how many units were written before its question."""
         self._done = 0
         """Units that had left the buffer then."""
-        self._asked: int | None = None
-        """Units written before the open question."""
-        self._of_error = False
-        """Whether that is ESC.E."""
-        self._proved = self._clean = 0
-        """Units proved when ESC.E was asked last; those of them that its answer made certain."""
+        self._questions = Questions()
+        self._clean = 0
+        """Units proved that ESC.E has made certain."""
         self._places = self._collisions = 0
         """Positions heard before the open question; questions in a row that met one."""
         self._progress = self._changed = self._asked_when = session.clock.now()
@@ -100,7 +99,10 @@ class Asked(Proving):
                 self._ask(of_error=True)
                 self._wait()
             self._nap(number)
-        if self._asked is not None:
+        if self._questions.awaited:
+            return
+        if self._questions.doubtful:
+            self._ask()
             return
         waited = self.session.clock.now() - self._asked_when
         following = self._following(number)
@@ -119,7 +121,7 @@ class Asked(Proving):
 
     def drain(self) -> None:
         """Wait for an answer that is still open, so that the next one is not mistaken for it."""
-        while self._asked is not None or self._bound < len(QUESTION) + self._kept:
+        while self._questions.open or self._bound < len(QUESTION) + self._kept:
             self._ask()
             self._wait()
 
@@ -170,33 +172,39 @@ class Asked(Proving):
         return max(0, sums.bytes[last] - sums.bytes[number + 1])
 
     def _ask(self, of_error: bool = False) -> None:
-        if self._asked is not None:
+        questions, session = self._questions, self.session
+        if questions.awaited:
             return
-        session = self.session
+        if questions.doubtful:
+            of_error = not questions.doubtful.of_error
+        elif (stray := session.answer_at_hand()) is not None:
+            raise LineDisturbed(disturbed(stray))
         limit = session.clock.now() + SILENCE / 2  # half an answer may be the last there is
         while (session.hearing or session.proving) and session.clock.now() < limit:
             session.wait_a_byte(limit)  # two answers at once are an error
         session.ask_error() if of_error else session.ask_free()
-        self._of_error, self._proved = of_error, self.witness.executed
-        self._asked, self._asked_when = self.sent, session.clock.now()
+        now = self._asked_when = session.clock.now()
+        proved = self.witness.executed
+        questions.ask(Question(of_error, self.sent, proved, self._bound, now))
         self._due = session.line_free + SILENCE
         self._places = session.places
 
     def _look(self) -> None:
         """Hear an answer that has come; raise NoAnswer where none will."""
-        if self._asked is None:
+        if not self._questions.open:
             return
         self._hear(self.session.answer_at_hand())
-        if self._asked is not None and self.session.clock.now() > self._due:
+        if self._questions.awaited and self.session.clock.now() > self._due:
             self._missed()
 
     def _wait(self) -> None:
         """Wait for the open question's answer, and learn from it."""
-        if self._asked is None:
+        questions = self._questions
+        if questions.awaited is None:
             return
-        least = 0 if self._of_error else max(0, self._bound)
+        least = 0 if questions.awaited.of_error else max(0, self._bound)
         answer = self.session.answer(self._soon, least)
-        if answer is None and self.session.places > self._places:
+        if answer is None and self.session.places > self._places and questions.tells_soon:
             self._missed()
             return
         answer = answer or self.session.answer(self._due)
@@ -214,8 +222,8 @@ class Asked(Proving):
         return self._due - SILENCE + 3 * session.round_trip + 24 * session.byte_time
 
     def _missed(self) -> None:
-        """Ask again if the question met the answer to OA, and was dropped for it."""
-        self._asked = None
+        """Ask again if the question met the answer to OA: it may have been dropped for it."""
+        self._questions.doubt()
         if self.session.places <= self._places:
             raise NoAnswer(
                 f"The plotter has stopped answering after instruction {self.sent} of "
@@ -229,40 +237,45 @@ class Asked(Proving):
             )
 
     def _hear(self, answer: str | None) -> None:
-        if answer is None or self._asked is None:
+        if answer is None:
             return
         if not answer.isdigit():
             raise NoAnswer(
                 f"The plotter answered {answer!r} where it should have told its free bytes. "
                 "Something disturbs the line; check the cable and the baud rate."
             )
-        self._collisions, asked = 0, self._asked
-        self._asked = None
-        if self._of_error:
-            self._judge(int(answer))
-            return
-        if self._free_at != asked or str(self._free) != answer:
+        self._collisions, question = 0, self._questions.answered(int(answer))
+        if question is None:
+            raise LineDisturbed(disturbed(answer))
+        if question.of_error:
+            self._judge(int(answer), question)
+        else:
+            self._learn(answer, question)
+
+    def _learn(self, answer: str, question: Question) -> None:
+        """Take what the machine says is free."""
+        if self._free_at != question.sent or str(self._free) != answer:
             self._changed = self.session.clock.now()
-        self._free, self._free_at = min(int(answer), self.session.buffer), asked
+        self._free, self._free_at = min(int(answer), self.session.buffer), question.sent
         gone = self.sums.bytes[self._free_at] - (self.session.buffer - self._free)
         done = max(self._done, bisect_right(self.sums.bytes, gone) - 1)
         if done > self._done or self._done == self.sent:
             self._progress = self.session.clock.now()
         if done > self._done:
             self._left_at = self._when_left(done)
-        self._done, self._seen_at = done, self._asked_when
+        self._done, self._seen_at = done, question.when
 
     def _when_left(self, done: int) -> float:
         """Return when so many units had left the buffer: as modelled, within what was seen."""
         modelled = self._left_at + self.sums.in_flight(self._done, done)
         return min(max(modelled, self._seen_at), self.session.clock.now())
 
-    def _judge(self, error: int) -> None:
+    def _judge(self, error: int, question: Question) -> None:
         """Take what was proved before ESC.E for certain, or stop where bytes were lost."""
         told = lost(0 if error == MET else error)
         if told:
             raise LineDisturbed(told)
-        self._clean, self._cleaned = self._proved, self.session.clock.now()
+        self._clean, self._cleaned = question.proved, self.session.clock.now()
 
     def _check_progress(self) -> None:
         clock = self.session.clock
@@ -285,7 +298,7 @@ class Asked(Proving):
 
     def _rest(self, number: int) -> None:
         """Wait until motion that is in flight will have been executed, by the model."""
-        if self._asked is not None or not self._is_held_back(number):
+        if self._questions.awaited or not self._is_held_back(number):
             return
         now = self.session.clock.now()
         self.session.rest_until(min(self._ripe(number), now + _LONGEST_NAP))

@@ -47,7 +47,9 @@ class Enquired(_Blocks):
 
     def promise(self, deadline: float) -> None:
         """Ask, and wait for the ACK."""
-        session, before = self.session, self.session.acks
+        session = self.session
+        session.listen()  # what acknowledges an ENQ that was asked before promises nothing now
+        before = session.acks
         session.enquire()
         while session.acks == before:
             if session.clock.now() >= deadline:

@@ -18,6 +18,8 @@ from foldmill_fabricate.plotter.session import PATIENCE, SILENCE, Session
 
 _ENQ, _ANEW = b"\x1b\x05", b"\x1b\x04"
 _WELCOME = 2.0
+_QUIET = 0.1
+"""s in which an answer comes that was taken for late: what a killed sender had asked came first."""
 _OFTEN = 0.4
 """s between two questions while a window is sent."""
 
@@ -37,9 +39,11 @@ class GpglSession(Session):
                 f"The cutter does not answer at {self.machine.serial.baud} baud. Is it on, and is "
                 "the cable the right one?"
             )
+        self.rest_until(self.clock.now() + _QUIET)
 
     def status(self, patience: float = SILENCE) -> str | None:
         """Ask for the status and wait; None for silence."""
+        self.listen()  # whatever has come answers something that was asked before
         self._answers.clear()
         self.send(_ENQ)
         limit = self.line_free + patience

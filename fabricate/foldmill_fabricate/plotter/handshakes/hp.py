@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import deque
 
 from foldmill_fabricate.plotter.errors import NoAnswer
+from foldmill_fabricate.plotter.handshakes.questions import LAST_ERROR
 from foldmill_fabricate.plotter.session import SILENCE, Session
 
 FREE, _SIZE, _ERROR, _STATUS = b"\x1b.B", b"\x1b.L", b"\x1b.E", b"\x1b.O"
@@ -68,14 +69,24 @@ class HpSession(Session):
         return serial.answers and (self.discards or serial.reports_losses)
 
     def _meet(self) -> None:
+        """Ask twice, for numbers that cannot be mistaken for each other.
+
+        Who was here before may have been killed with a question open. Its answer is heard before
+        these, and is of another kind than the first or the second; so is where the tool was then.
+        """
         asked = self.clock.now()
-        if self.control(_ERROR, _WELCOME) is None:
+        found = self.control(_ERROR, _WELCOME, most=LAST_ERROR)
+        if found is None and self._proofs:  # it was taken for an OE that was dropped
+            found = self.control(_ERROR, _WELCOME, most=LAST_ERROR)
+        if found is None:
             raise NoAnswer(
                 f"The plotter does not answer at {self.machine.serial.baud} baud. Is it on, is the "
                 "cable the right one, and does its own setting agree with the baud rate?"
             )
         self.round_trip = self.clock.now() - asked
         self.buffer = self._size()
+        self._proofs.clear()
+        self._place = None
 
     def ask_free(self) -> None:
         """Ask for the free bytes; ``answer`` brings them."""
@@ -89,16 +100,20 @@ class HpSession(Session):
         """Ask whether a block fits; ``acks`` counts the answers."""
         self.send(_ENQ)
 
-    def control(self, question: bytes, patience: float = SILENCE) -> int | None:
-        """Ask by device control and wait; None for silence, or an answer that is no number."""
-        self.send(question)
-        text = self.answer(self.line_free + patience)
-        return int(text) if text is not None and text.isdigit() else None
+    def control(
+        self, question: bytes, patience: float = SILENCE, *, least: int = 0, most: int = _LARGEST
+    ) -> int | None:
+        """Ask by device control and wait; None for silence, or an answer that is no number.
 
-    def io_error(self) -> int | None:
-        """Return the machine's I/O error; None for silence, 0 for none, and where questions met."""
-        found = self.control(_ERROR)
-        return 0 if found == MET else found
+        least, most : numbers beyond them answer something else that was asked before.
+        """
+        self.send(question)
+        while (text := self.answer(self.line_free + patience)) is not None:
+            if not text.isdigit():
+                return None
+            if least <= int(text) <= most:
+                return int(text)
+        return None
 
     def status(self) -> int:
         """Return the extended status, a sum of bits; 0 for silence."""
@@ -172,9 +187,9 @@ class HpSession(Session):
         return "The machine was told to drop what it has and to lift its tool."
 
     def _size(self) -> int:
-        found = self.control(_SIZE)
+        found = self.control(_SIZE, least=_SMALLEST)
         if found is None:  # some machines tell it only when they are at rest
             self.send(_FORGET_ANSWERS)
             self.clock.sleep(self.round_trip)
             self.forget_answers()
-        return found if found and _SMALLEST <= found <= _LARGEST else self.buffer
+        return found or self.buffer
