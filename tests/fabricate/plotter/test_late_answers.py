@@ -19,7 +19,7 @@ from foldmill_fabricate.plotter.errors import PlotterError
 from foldmill_fabricate.plotter.link import open_port
 from foldmill_fabricate.plotter.sender import Delivery, as_sent, send
 from foldmill_fabricate.plotter.simulator.faults import parse
-from foldmill_fabricate.plotter.simulator.hp import FRAMING, OVERLAP
+from foldmill_fabricate.plotter.simulator.firmware import FRAMING, OVERLAP
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.plotter.simulator.trial import fine_lines, without_questions
 from foldmill_fabricate.plotter.standing import stand
