@@ -27,6 +27,7 @@ from foldmill_fabricate.cli import (
     searching,
     serving,
     sheets,
+    simulating,
     testing,
 )
 
@@ -69,6 +70,7 @@ searching.add_to(app)
 making.add_to(app)
 testing.add_to(app)
 running.add_to(app)
+simulating.add_to(app)
 leading.add_to(app)
 sheets.add_to(app)
 jobs.add_to(app)

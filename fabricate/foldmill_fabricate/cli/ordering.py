@@ -43,7 +43,20 @@ def wanted(desk: Jobs, what: str, plotter: str, words: Words) -> dict[str, Any]:
         raise FoldmillError(f"{what} is no job folder: plan it first, or name a family.")
     machine = desk.machine_of(plotter)
     preset, params, material, options, _ = words
+    _refuse_neither(what)
     return {"design": ordered(what, preset, params, material, machine, options)}
+
+
+def _refuse_neither(what: str) -> None:
+    """Raise UnknownName, which is about folders too, for what is no family either."""
+    from foldmill import UnknownName, installed
+
+    try:
+        installed().design(what)
+    except UnknownName as error:
+        raise UnknownName(
+            f"There is no job folder {what} here, and no such family: {error}"
+        ) from None
 
 
 def _drawn(desk: Jobs, file: Path, plotter: str, words: Words) -> str:

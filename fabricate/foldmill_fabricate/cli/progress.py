@@ -1,13 +1,17 @@
-"""How far a sweep is, on standard error: a bar on a terminal, else a line for each stage."""
+"""How far work is, on standard error: a bar on a terminal, else a line for each stage."""
 
 from __future__ import annotations
 
 import sys
 from time import perf_counter
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.passes import ProgramFile
+    from foldmill_fabricate.plotter.sender import Progress
 
 
 class SweepProgress:
@@ -57,3 +61,26 @@ class SweepProgress:
         self.bar = Progress(*columns, console=Console(stderr=True), transient=True)
         self.task = self.bar.add_task("", total=rows)
         self.bar.start()
+
+
+class ProgressLine:
+    """How far a program is: a bar on a terminal, one line per program elsewhere."""
+
+    def __init__(self, aside: bool = False) -> None:
+        self._aside = aside
+        self._live = sys.stderr.isatty()
+        self._shown = -1
+
+    def tell(self, part: ProgramFile, progress: Progress) -> None:
+        """Redraw the bar where a person can see it."""
+        share = 40 * progress.bytes // max(1, progress.of_bytes)
+        if self._live and share != self._shown:
+            typer.echo(f"\r{part.name:28} [{'#' * share:40}]", nl=False, err=True)
+            self._shown = share
+
+    def end(self, line: str) -> None:
+        """Leave the line for good."""
+        if self._live:
+            typer.echo("\r\033[K", nl=False, err=True)
+        self._shown = -1
+        typer.echo(line, err=self._aside)

@@ -104,6 +104,9 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
     assert "deg" in told
 
 
+BENCH = "bench=sim://generic-hpgl-600@generic-hpgl-600"
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -117,6 +120,7 @@ def test_a_familys_help_lists_parameters_with_units(foldmill: Run) -> None:
         (["desing", "tuck"], "Did you mean 'design'? `foldmill --help` tells what there is."),
         (["plan", "a.fold", "--width", "44cm", "-o", "job"], "in digits, without its unit."),
         (["plan", "a.fold", "--flip", "left", "-o", "job"], "'--flip': 'left' is not one of"),
+        (["job", "submit", "jbo", "--plotter", BENCH, "--on", "bench"], "no job folder jbo here"),
         (["check", "."], ".: is a directory. Name a file in it."),
         (["design", "tuck", "--phi", "NaN"], "phi must be"),
         (["design", "tuck", "-o", "stool.dwg"], "write .fold .svg .png .glb .stl or .obj"),
