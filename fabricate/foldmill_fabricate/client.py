@@ -16,13 +16,11 @@ whoever is at this computer.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
-import httpx
-
+from foldmill_fabricate.calling import Calling
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.jobs.rows import person
@@ -38,51 +36,20 @@ from foldmill_fabricate.jobs.values import (
 )
 from foldmill_fabricate.service import answers, models
 from foldmill_fabricate.service.answers import Unreachable as Unreachable
-from foldmill_fabricate.service.reach import reached
 from foldmill_fabricate.service.unpacking import pack
 
 T = TypeVar("T")
-_PREFIX = "/api/v1"
-_UPLOAD = {"content-type": "application/octet-stream", "x-foldmill": "1"}
 _LOOK = 0.3
 """s between two looks at a plan that is being made."""
 
 
-class Client:
+class Client(Calling):
     """A service, at an address.
 
     url : by default where this user's service says it is. token : as ``foldmill serve --new-token``
     told it. seconds : how long an answer may take. Raises Unreachable where no service runs,
     InvalidInput for what is no address or no token.
     """
-
-    def __init__(self, url: str = "", token: str = "", seconds: float = 120.0) -> None:
-        found = url or reached()
-        if found is None:
-            raise Unreachable("No service runs here; start one with foldmill serve.")
-        self.url = answers.address(found)
-        self._http = httpx.Client(
-            base_url=self.url,
-            headers=answers.bearer(token),
-            timeout=seconds,
-            limits=httpx.Limits(max_keepalive_connections=0),  # a service may end in between
-            trust_env=False,
-        )
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        _kind: type[BaseException] | None,
-        _error: BaseException | None,
-        _trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Let go of the connection."""
-        self._http.close()
 
     # ── what there is ────────────────────────────────────────────────────────────────────────────
 
@@ -277,19 +244,6 @@ class Client:
 
     # ── on the wire ──────────────────────────────────────────────────────────────────────────────
 
-    def _get(self, kind: type[T], path: str, asked: Mapping[str, Any] | None = None) -> T:
-        return self._read(kind, self._answered("GET", path, params=asked))
-
-    def _bytes(self, path: str) -> bytes:
-        return self._answered("GET", path).content
-
-    def _post(self, kind: type[T], path: str, body: Any) -> T:
-        return self._read(kind, self._answered("POST", path, json=body))
-
-    def _send(self, kind: type[T], path: str, content: bytes, asked: Mapping[str, Any]) -> T:
-        answer = self._answered("POST", path, content=content, headers=_UPLOAD, params=asked)
-        return self._read(kind, answer)
-
     def _want(self, name: str, verb: str, body: Any, who: str) -> JobRecord:
         return self._change(f"/jobs/{answers.quoted(name)}/{verb}", body, who)
 
@@ -297,9 +251,3 @@ class Client:
         """Change a job in somebody's name; where the service wants a token, that is the token's."""
         signed = {"who": who or person()[:60]}
         return self._read(JobRecord, self._answered("POST", path, json=body, params=signed))
-
-    def _answered(self, method: str, path: str, **how: Any) -> httpx.Response:
-        return answers.asked(self._http, method, _PREFIX + path, **how)
-
-    def _read(self, kind: type[T], answer: httpx.Response) -> T:
-        return answers.understood(kind, answer.content, self.url)

@@ -88,7 +88,7 @@ def main() -> None:
     except OSError as error:
         _stop(_of_the_disk(error))
     except typer.Abort:
-        typer.echo("Aborted.", err=True)
+        typer.echo("\nAborted.", err=True)
         sys.exit(1)
     except Exception as error:
         if not hasattr(error, "format_message"):

@@ -94,6 +94,7 @@ def register(
     found: list[tuple[float, float]] = []
     laid = _sheet(ledger.open_sheets(job.id), sheet, job)
     with _led(port, job.plan.machine, "register") as jogger:
+        typer.echo(_HOW, err=True)
         for number, spot in enumerate(wanted, 1):
             jogger.go(spot)
             if _over(jogger, number, len(wanted)) and jogger.at:
@@ -106,6 +107,13 @@ def register(
     kept = f"kept for sheet {laid.id}" if laid else "no sheet of this job is begun: give them"
     lines = f'{fit}\nThe marks are {kept}\nfoldmill send {path} --port {port} --marks "{text}"'
     say(as_json, {"marks": found, "sheet": laid.id if laid else None, "fit": str(fit)}, lines)
+
+
+_HOW = (
+    "Lead the tool over the middle of each mark: type dx,dy in mm, or a, d, w, s (left, right, up, "
+    "down) with how far, as d 0.5.\nEnter takes the place, - leaves the mark out, Ctrl-C ends and "
+    "keeps nothing."
+)
 
 
 def _sheet(begun: list[SheetRecord], name: str, job: Job) -> SheetRecord | None:

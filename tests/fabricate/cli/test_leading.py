@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import typer
 from command import Run
 from fabricate.bench import Bench, small_job, small_plan
 
@@ -52,6 +53,7 @@ def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(
     monkeypatch.setattr("typer.prompt", lambda *_, **__: typed.pop(0))
     told = foldmill("register", "job", "--port", bench.url)
     assert told.code == 0, told.err
+    assert "a, d, w, s (left, right, up, down)" in told.err
     assert "angle +0.200°" in told.out
     assert f"kept for sheet {front.sheet}" in told.out
     list(send_job(job, bench.url, bench.hands, (Face.REVERSE,), ledger=ledger))
@@ -68,6 +70,29 @@ def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(
         assert far <= 1
     for each in (bench, plain):
         each.leave()
+
+
+def test_marks_that_were_begun_to_be_measured_are_not_kept(
+    foldmill: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    job, ledger = small_job(Path("job")), Ledger(tmp_path / "ledger.sqlite")
+    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url, _who="": ledger)
+    bench = Bench(small_plan())
+    *_, front = send_job(job, bench.url, bench.hands, (Face.FRONT,), ledger=ledger)
+    before = ledger.history(front.sheet)
+    typed = [""]
+
+    def typing(*_: object, **__: object) -> str:
+        if not typed:
+            raise typer.Abort
+        return typed.pop()
+
+    monkeypatch.setattr("typer.prompt", typing)
+    told = foldmill("register", "job", "--port", bench.url)
+    assert (told.code, told.out) == (1, "")
+    assert told.err.endswith("keeps nothing.\n\nAborted.\n")
+    assert ledger.history(front.sheet) == before
+    bench.leave()
 
 
 def test_keys_and_numbers_are_steps() -> None:
