@@ -8,7 +8,7 @@ that nobody has tried is tried in the waste first (``trials``).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -42,14 +42,17 @@ from foldmill_fabricate.sending import Job
 __all__ = ["NEW", "Sent", "Tell", "choose_sheet", "own_ledger", "send_job"]
 
 Tell = Callable[[ProgramFile, Progress], None]
-TEST_CUT, MARKS = "test-cut", "marks"
-"""What the ledger calls answers that belong to no gate."""
+MARKS = "marks"
+"""What the ledger calls an answer that belongs to no gate."""
 _ENDS = {
     Status.EXECUTED: State.DONE,
     Status.ENDED: State.DONE,
     Status.UNCONFIRMED: State.UNCONFIRMED,
     Status.FAULT: State.INTERRUPTED,
 }
+
+_BROKEN_OFF = {State.RUNNING, State.INTERRUPTED, State.SPOILED}
+"""States of a program whose last instruction may be sent in half."""
 
 
 @dataclass(frozen=True)
@@ -223,8 +226,9 @@ class _Work:
         bench, setup = self.bench, self.setups[0]
         begun = bool(self.record.runs)
         wanted = gates.due(setup, bench.job.plan, returned=bench.returned, begun=begun)
+        warning = self._warning()
         for gate in wanted:
-            request = bench.request(gate, self.part.face, setup)
+            request = replace(bench.request(gate, self.part.face, setup), warning=warning)
             answer = bench.operator.ready(request)
             if answer is None:
                 raise CannotSend(
@@ -234,6 +238,16 @@ class _Work:
             if answer.marks:
                 bench.job, bench.marks_seen = bench.job.fitted(answer.marks), True
             self.ledger.answer(self.sheet, self.number, gate, answer.told, answer.who)
+            warning = ""
+
+    def _warning(self) -> str:
+        """Say what may lie in the machine, where something broke off that nobody has spoken of."""
+        bench = self.bench
+        last = self.ledger.last_on(bench.device)
+        of_another = last is not None and last.sheet != self.sheet and last.state in _BROKEN_OFF
+        answers = self.ledger.answers(self.sheet)
+        of_a_trial = not self.record.runs and trials.is_broken_off(answers, self.number)
+        return recovery.half(bench.job.plan.machine) if of_another or of_a_trial else ""
 
     def try_presets(self) -> None:
         """Cut in the waste what nobody has tried, before anything of the part is cut so."""
@@ -251,7 +265,7 @@ class _Work:
         wanted = bench.test_cut or (asked and bench.operator.wants_test_cut(request))
         if asked and not wanted:
             declined = {"set-up": setup.name, "verdict": "not wanted"}
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, declined, bench.operator.who)
+            self.ledger.answer(self.sheet, self.number, trials.JUDGED, declined, bench.operator.who)
         make = bench.job.trier or trials.trial_program
         while wanted:
             attempt = trials.begun(self.ledger.answers(self.sheet), setup)
@@ -263,7 +277,7 @@ class _Work:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
             verdict = bench.operator.judge(request)
             told = told | {"verdict": verdict.value}
-            self.ledger.answer(self.sheet, self.number, TEST_CUT, told, bench.operator.who)
+            self.ledger.answer(self.sheet, self.number, trials.JUDGED, told, bench.operator.who)
             if verdict is Verdict.STOP:
                 raise CannotSend(trials.BAD.format(setup.name))
             wanted = verdict is Verdict.AGAIN

@@ -40,6 +40,8 @@ class Request:
     """Whether marks were measured on the sheet as it lies now."""
     picture: Path | None = None
     """A drawing of the flip, where there is one."""
+    warning: str = ""
+    """What is to be seen to first, a sentence; empty for nothing."""
 
     @property
     def needs_id(self) -> bool:

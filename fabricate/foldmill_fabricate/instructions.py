@@ -8,6 +8,11 @@ from foldmill_fabricate.passes import Face, Gate, Plan
 
 def instruction(request: Request) -> str:
     """Return in words what the operator has to do."""
+    told = _told(request)
+    return f"{request.warning}\n{told}" if request.warning else told
+
+
+def _told(request: Request) -> str:
     return {
         Gate.LOAD: _load,
         Gate.TOOL: _tool,

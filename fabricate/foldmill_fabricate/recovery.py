@@ -49,14 +49,14 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     where = _where(program, record, machine)
     found = stand(port, machine) if machine.language == "hpgl" else None
     if found is None:
-        return Place(None, f"{where} {_half(machine)}".strip())
+        return Place(None, f"{where} {half(machine)}".strip())
     start = resume.locate(program, last.acked, last.sent, found.at, is_down=found.is_down)
     if start is not None:
         return Place(start, where)
     return Place(None, f"{where} {_told(program, last.acked, last.sent, found, machine)}".strip())
 
 
-def _half(machine: Machine) -> str:
+def half(machine: Machine) -> str:
     """Say what to do where half an instruction may lie in a machine that cannot drop it.
 
     The next bytes would end it: a number cut short is a line to somewhere else.

@@ -16,6 +16,8 @@ from foldmill_fabricate.verify.trial import prove_trial
 
 BEGUN = "test-cut-begun"
 """What the ledger calls a test cut of which a byte may have left."""
+JUDGED = "test-cut"
+"""What it calls what a person has said of one, or that none is wanted."""
 
 BAD = (
     "The test cut for {} is not as it should be, and nothing of the part is cut with that setting. "
@@ -44,6 +46,12 @@ def begun(answers: Iterable[Answered], setup: SetUp) -> int:
     What was begun before a crash counts: cut again, it would be deeper than the part becomes.
     """
     return sum(one.gate == BEGUN and one.told["set-up"] == setup.name for one in answers)
+
+
+def is_broken_off(answers: Iterable[Answered], number: int) -> bool:
+    """Tell whether the last test cut before a program was begun, and nobody has looked at it."""
+    last = [one for one in answers if one.gate in {BEGUN, JUDGED} and "attempt" in one.told][-1:]
+    return any(one.gate == BEGUN and one.number == number for one in last)
 
 
 def trial_program(job: Job, face: Face, setup: SetUp, attempt: int = 0) -> bytes:

@@ -291,6 +291,7 @@ from foldmill_fabricate.gates import Answer
 from foldmill_fabricate.sending import open_job
 
 class Hands:
+    who = ""
     def ready(self, request): return Answer(sheet=request.sheet)
     def wants_test_cut(self, *_): return False
     def judge(self, *_): raise AssertionError

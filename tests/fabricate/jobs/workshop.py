@@ -296,6 +296,7 @@ class Workshop:
         reply = Reply(sheet=question.sheet)
         if question.kind in {Kind.LOAD, Kind.FLIP, Kind.REMOVE, Kind.RE_REGISTER}:
             self.rest()
+            self._heed(question)
             self._lay(question)
         elif question.kind is Kind.TRY:
             reply = Reply(ok=self.eager)
@@ -305,14 +306,18 @@ class Workshop:
         elif question.kind in {Kind.DECIDE, Kind.FINISHED}:
             self.rest()
             record = self.at.store.ledger.record(question.sheet, question.program or 0)
-            if "switch the machine off and on" in question.text and not self.forgetful:
-                self._power_cycle()
+            self._heed(question)
             if question.kind is Kind.DECIDE:
                 reply = self._chosen(record) if self.blind else self._seen(record)
         try:
             self.at.answer(question.id, reply)
         except LookupError:
             return
+
+    def _heed(self, question: Question) -> None:
+        """Switch the machine off and on where that is asked for."""
+        if "switch the machine off and on" in question.text and not self.forgetful:
+            self._power_cycle()
 
     def _power_cycle(self) -> None:
         self.simulator.fail(faults.parse("power@0:0.1s"))

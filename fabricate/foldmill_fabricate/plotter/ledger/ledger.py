@@ -169,6 +169,11 @@ class Ledger:
         """Return one program of a sheet."""
         return self.sheet(sheet).records[number]
 
+    def last_on(self, device: str) -> Record | None:
+        """Return the program that was begun last on a device, of whatever sheet."""
+        with reading_of(self._engine) as at:
+            return reading.last_on(at, device)
+
     def history(self, sheet: str) -> list[tuple[str, str, str]]:
         """Return what happened to a sheet: (when, who, what), the oldest first."""
         wanted = select(AUDIT.c.when, AUDIT.c.who, AUDIT.c.what).where(AUDIT.c.sheet == sheet)
@@ -200,7 +205,7 @@ class Ledger:
                 begun = {"first": row.first, "sent": row.first, "acked": row.first}
                 place = {"sheet": sheet, "number": number, "token": token, "vertex": row.vertex}
                 at.execute(insert(RUNS).values(device=device, **place, **begun))
-                told = f"begun at stroke {row.first + 1} on {device}"
+                told = f"{reading.BEGUN}{row.first + 1} on {device}"
                 note(at, self._now(), sheet, number, told, self._who)
                 return Run(self, sheet, number, token, row.first, row.strokes)
         raise LedgerRefused(not_ready(self.recover(sheet, number)))
