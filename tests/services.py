@@ -18,13 +18,16 @@ import uvicorn
 from foldmill_fabricate.jobs import Places
 from foldmill_fabricate.jobs.plotters import Plotter
 from foldmill_fabricate.service.app import create
+from foldmill_fabricate.service.sandbox import Sandbox
 from foldmill_fabricate.service.security import Policy
 from foldmill_fabricate.service.server import configured
 from foldmill_fabricate.service.workshop import Workshop
 
 
 @contextmanager
-def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client]:
+def running(
+    folder: Path, policy: Policy | None = None, sandbox: Sandbox | None = None
+) -> Iterator[httpx.Client]:
     """Run the application on a free port of this computer and give a client of it.
 
     Jobs are kept there and nobody works on them: a process has one engine, and tests several
@@ -32,7 +35,7 @@ def running(folder: Path, policy: Policy | None = None) -> Iterator[httpx.Client
     """
     bench = Plotter(name="bench", port="sim://generic-hpgl-600", machine="generic-hpgl-600")
     workshop = Workshop(Places(folder, ""), {"bench": bench}, works=False)
-    app = create(workshop, policy)
+    app = create(workshop, policy, sandbox)
     with socket.create_server(("127.0.0.1", 0)) as listening:
         port = listening.getsockname()[1]
         server = uvicorn.Server(configured(app))

@@ -119,18 +119,20 @@ class Desk:
         """Put a job in the queue of its plotter.
 
         Raises NoSuchJob for a plan or plotter that there is not, JobRefused where the plotter is
-        another machine than the plan is for.
+        another machine than the plan is for, or the plan is not the rest of the sheet it says.
         """
         plotter = find(self.plotters, asked.plotter)
         if bool(asked.plan) == (asked.design is not None):
             raise JobRefused("Submit a plan, or a design to be planned: one of both.")
         if asked.design is not None:
             name = f"{asked.design.family} {asked.design.preset}".strip()
-            about = About(name, asked.design.material, asked.design.machine)
+            about, remakes = About(name, asked.design.material, asked.design.machine), ""
         else:
-            about = self.plans.about(asked.plan)
-            if not self.plans.plan(asked.plan).programs:
+            about, has_programs, remakes = self.plans.told(asked.plan)
+            if not has_programs:
                 raise CannotSend("This plan holds drawings only; plan it again without --to.")
+        if asked.remakes not in {"", remakes}:
+            raise JobRefused(f"This is no plan of what is missing on sheet {asked.remakes!r}.")
         if about.machine != plotter.machine:
             raise JobRefused(
                 f"This job is planned for {about.machine}, and {plotter.name} is a "

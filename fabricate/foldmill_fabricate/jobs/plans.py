@@ -8,6 +8,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Collection
 from pathlib import Path
+from typing import NamedTuple
 
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.folder import PLAN
@@ -16,6 +17,18 @@ from foldmill_fabricate.jobs.keeping import KEEP_DAYS, Keeping
 from foldmill_fabricate.jobs.rows import About
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.space import keeping
+
+_MOST_TOLD = 1000
+"""Plans that are remembered, some hundred bytes each."""
+
+
+class Told(NamedTuple):
+    """What a submission of a plan is judged by."""
+
+    about: About
+    has_programs: bool
+    remakes: str
+    """id of the sheet that it goes on with; empty where it begins one"""
 
 
 class Plans:
@@ -26,6 +39,7 @@ class Plans:
 
     def __init__(self, root: Path, days: int = KEEP_DAYS) -> None:
         self._kept, self._days = Keeping(root, PLAN), days
+        self._told: dict[str, Told] = {}
 
     def keep(self, folder: Path) -> str:
         """Keep a copy of a job folder and return the id of its plan.
@@ -60,7 +74,24 @@ class Plans:
 
     def about(self, name: str) -> About:
         """Return what a plan says of itself; raises NoSuchJob."""
-        return about(self.plan(name))
+        return self.told(name).about
+
+    def told(self, name: str) -> Told:
+        """Return what a submission is judged by; raises NoSuchJob.
+
+        A plan is read once: its id is the digest of all it says.
+        """
+        folder = self.folder(name)
+        if name not in self._told:
+            if len(self._told) >= _MOST_TOLD:
+                self._told.clear()
+            self._told[name] = _told(_read(folder))
+        return self._told[name]
+
+
+def _told(plan: Plan) -> Told:
+    sheet = plan.remakes.sheet if plan.remakes else ""
+    return Told(about(plan), bool(plan.programs), sheet)
 
 
 def about(plan: Plan) -> About:

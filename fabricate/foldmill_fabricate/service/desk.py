@@ -51,8 +51,10 @@ class Desk:
     async def folder(self) -> AsyncIterator[Path]:
         """Give a folder for one piece of work; what is left of it afterwards is thrown away.
 
-        Threads make it and throw it away: a disk that is slow must not keep others waiting.
+        Threads make it and throw it away: a disk that is slow must not keep others waiting. Raises
+        TooBusy at once where there is no room for more work, before anything is received for it.
         """
+        self.sandbox.require_room()
         made = await asyncio.to_thread(self.sandbox.folder)
         try:
             yield made

@@ -87,6 +87,7 @@ class Plans:
         await asyncio.to_thread(self._forget_lost, place)
         if digest not in self._tasks and not (place / DONE).is_file():
             task = asyncio.create_task(self._make(digest, order))
+            task.add_done_callback(_looked_at)
             self._tasks[digest] = task
             await asyncio.sleep(0)  # as far as into the queue, if there is room
             if task.done() and task.exception() is not None:
@@ -187,7 +188,8 @@ class Plans:
         try:
             with keeping(place):
                 await self._carry_out(place, order)
-        except TooBusy:
+        except TooBusy as error:
+            self._full[digest] = str(error)
             raise  # it was not begun
         except DiskFull as error:
             LOG.error("plan %s: %s", digest, error)
@@ -207,3 +209,9 @@ class Plans:
             said = await self._desk.call("plan", order.arguments, folder, PLANNING, "The plan")
             plan = await asyncio.to_thread(self._kept.keep, folder / JOB)
         write(place / DONE, {**said, "plan": plan})
+
+
+def _looked_at(task: asyncio.Task[None]) -> None:
+    """Take note of how a plan's making ended; who asks how it stands is told."""
+    if not task.cancelled():
+        task.exception()

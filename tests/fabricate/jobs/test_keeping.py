@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -171,3 +172,15 @@ def test_a_plan_that_only_the_record_of_a_sheet_names_is_needed(desk: Desk, fold
     program = Program("front.hpgl", "front", OTHER, 3)
     desk.store.ledger.lay(plan, [program], title="", machine=ONE_TOOL, material="pp-0.75")
     assert desk.store.plans_needed() == {plan}
+
+
+def test_a_plan_that_was_submitted_before_is_missed_once_it_is_gone(
+    desk: Desk, folder: Path
+) -> None:
+    plan = desk.keep(folder)
+    asked = Submission(plan=plan, plotter="bench")
+    desk.submit(asked)
+    desk.submit(asked)
+    shutil.rmtree(desk.plans.folder(plan))
+    with pytest.raises(NoSuchJob, match="plan it anew"):
+        desk.submit(asked)

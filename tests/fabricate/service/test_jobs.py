@@ -191,6 +191,8 @@ def test_what_there_is_not_is_refused_with_the_error_it_is(queued: Client, plann
         queued.submit(Submission(plan=plan, plotter="lathe"))
     with pytest.raises(NoSuchJob, match="There is no plan"):
         queued.submit(Submission(plan="0" * 64, plotter="bench"))
+    with pytest.raises(JobRefused, match="no plan of what is missing on sheet 'ZZZZ'"):
+        queued.submit(Submission(plan=plan, plotter="bench", remakes="ZZZZ"))
     with pytest.raises(NoSuchJob):
         queued.job("NOSUCH")
     with pytest.raises(NoSuchJob, match="There is no question"):

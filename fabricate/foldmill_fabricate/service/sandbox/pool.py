@@ -104,6 +104,15 @@ class Sandbox:
         with self._lock:
             return self._nursery.pid if self._nursery else None
 
+    def require_room(self) -> None:
+        """Raise TooBusy where no more work may wait."""
+        with self._lock:
+            if len(self._queue) >= self.waiting:
+                raise TooBusy(
+                    f"{len(self._working)} pieces of work are under way and {len(self._queue)} "
+                    "wait; there is no room for more. Try again in a minute."
+                )
+
     def folder(self) -> Path:
         """Return a new folder to put files for a piece of work into."""
         self.scratch.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -127,11 +136,7 @@ class Sandbox:
         (folder / _ARGUMENTS).write_text(json.dumps(arguments))
         with self._lock:
             self.start()
-            if len(self._queue) >= self.waiting:
-                raise TooBusy(
-                    f"{len(self._working)} pieces of work are under way and {len(self._queue)} "
-                    "wait; there is no room for more. Try again in a minute."
-                )
+            self.require_room()
             self._count += 1
             work = _Work(self._count, call, folder, limits, what)
             self._queue.append(work)
