@@ -21,7 +21,7 @@ from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.plan_options import PlanOptions, read_options
 from foldmill_fabricate.verify import verify_folder
 
-PATIENCE = 60.0
+PATIENCE = 180.0
 STAR = Order(family="rotational", preset="star-n6")
 
 

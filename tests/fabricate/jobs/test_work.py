@@ -16,7 +16,7 @@ from foldmill_fabricate.jobs.proving import prove_elsewhere
 from foldmill_fabricate.jobs.work import Shop, watching, work
 from foldmill_fabricate.verify import read_folder
 
-PATIENCE = 60.0
+PATIENCE = 180.0
 
 
 @contextmanager

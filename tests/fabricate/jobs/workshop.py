@@ -42,7 +42,7 @@ from foldmill_fabricate.sending import open_job
 Spot = tuple[int, int]
 Line = tuple[Face, Spot, Spot]
 """A straight line on a face, in steps, its lower end first."""
-PATIENCE = 60.0
+PATIENCE = 180.0
 """s of the wall in which a workshop must come to rest."""
 SPEED_UP = 4.0
 

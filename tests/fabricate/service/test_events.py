@@ -23,7 +23,7 @@ from foldmill_fabricate.service.events import MOST
 from foldmill_fabricate.service.server import policy
 from foldmill_fabricate.service.tokens import Scope, Tokens
 
-PATIENCE = 60.0
+PATIENCE = 180.0
 ROUTE = "/api/v1/events"
 
 

@@ -31,7 +31,7 @@ from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.sending import Job, open_job
 from foldmill_fabricate.service.measuring import REASONS, Measured
 
-PATIENCE = 60.0
+PATIENCE = 180.0
 MACHINE = "generic-hpgl-600"
 
 
