@@ -26,7 +26,7 @@ ROUNDS = 150
 ended above the least there is; with these none."""
 FEW_KICKS = 6
 """Kicks per stroke of the smallest sheets: ten times as many take three times as long without numba
-and end at the same way on the stool, 0.6 % shorter at the most on 50 to 200 random lines."""
+and end at the same way on the stool, 0.7 % shorter at the most on 50 to 200 random lines."""
 MANY = 1000
 """Strokes beyond which there are fewer per stroke, by the root of their number: with the same time
 per kick, all kicks together grow more slowly than the sheet."""
