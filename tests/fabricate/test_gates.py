@@ -57,8 +57,11 @@ def test_a_whole_job_passes_every_gate_in_order(job: Job, bench: Bench, ledger: 
     sent = list(send_job(job, bench.url, bench.hands, ledger=ledger))
     load, tool, flip, remove = Gate.LOAD, Gate.TOOL, Gate.FLIP, Gate.REMOVE
     assert bench.hands.gates == [load, tool, tool, flip, tool, remove]
-    answered = [one.gate for one in ledger.answers(sent[0].sheet)]
-    assert answered == [gate.value for gate in bench.hands.gates]
+    answered = ledger.answers(sent[0].sheet)
+    tried = [one.told for one in answered if one.gate == "test-cut"]
+    assert {each["verdict"] for each in tried} == {"not wanted"}
+    gates = [one.gate for one in answered if one.gate != "test-cut"]
+    assert gates == [gate.value for gate in bench.hands.gates]
 
 
 def test_what_was_measured_is_kept_with_who_measured_it(
@@ -174,7 +177,7 @@ def test_an_untested_preset_is_tried_in_the_waste_before_the_part(
         assert len(tried.points) == 1 + small_plan().material.cut.repeats
     assert not set(first.points) & set(second.points)
     tried_before = [one.told for one in ledger.answers(sent[0].sheet) if one.gate == "test-cut"]
-    assert [each["verdict"] for each in tried_before] == ["again", "good"]
+    assert [each["verdict"] for each in tried_before] == ["again", "good", "not wanted"]
 
 
 def test_a_test_cut_that_was_cut_off_is_never_gone_over_again(

@@ -79,17 +79,25 @@ def new_database(at: Server, name: str) -> str:
     return at.url.replace("postgresql:", "postgresql+psycopg:") + f"/{name}"
 
 
-def _unprivileged(place: Path) -> list[str]:
-    """Return how to become a user that the server runs as: it refuses the superuser."""
+def _unprivileged(place: Path) -> str | None:
+    """Return the user that the server runs as, which refuses the superuser; None for this one."""
     if os.geteuid() != 0:
-        return []
+        return None
     shutil.chown(place, "postgres", "postgres")
-    return ["runuser", "-u", "postgres", "--"]
+    return "postgres"
 
 
-def _run(as_user: list[str], *words: object) -> None:
-    command = [*as_user, *map(str, words)]
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, cwd="/", timeout=60)
+def _run(user: str | None, *words: object) -> None:
+    subprocess.run(
+        [*map(str, words)],
+        check=True,
+        stdout=subprocess.DEVNULL,
+        cwd="/",
+        timeout=60,
+        user=user,
+        group=user,
+        extra_groups=None if user is None else [],
+    )
 
 
 def _free_port() -> int:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import socket
 from collections.abc import Iterator
 from concurrent.futures import Future
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 from services import running, square
+from unhurried import of_tests
 
 from foldmill_fabricate.service.desk import WORK
 from foldmill_fabricate.service.sandbox import Limits, Sandbox
@@ -23,6 +25,12 @@ def busy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Busy]:
     """Give a service whose only process works, and for which another piece of work waits."""
     folder = tmp_path_factory.mktemp("busy")
     sandbox = Sandbox(folder / "scratch", [WORK, "sandbox_probes"], at_once=1, waiting=1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", of_tests())
+        yield from _busy(folder, sandbox)
+
+
+def _busy(folder: Path, sandbox: Sandbox) -> Iterator[Busy]:
     with running(folder, sandbox=sandbox) as client:
         pattern = client.post("/api/v1/patterns", json=square()).json()["id"]
         folder, limits, nap = sandbox.folder(), Limits(seconds=60), {"seconds": 60}
