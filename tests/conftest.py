@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import zlib
 from difflib import unified_diff
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from soaking import Soak
+from soaking import Soak, head
 
 # No test is timed, on whatever machine it runs; and a test that fails, fails for everybody.
 settings.register_profile("foldmill", deadline=None, derandomize=True)
@@ -18,6 +19,26 @@ settings.load_profile("foldmill")
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-goldens", action="store_true", help="rewrite golden files")
     parser.addoption("--soak", action="store_true", help="run long suites whole")
+
+
+SAMPLE, WHOLE = 3, 3000
+"""Of long tests one in so many is run, where so many tests are collected that it is all of them."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out long tests but for a sample that the commit chooses: others at the next one."""
+    if config.getoption("--soak") or len(items) < WHOLE:
+        return
+    commit = head()
+    left = [
+        item
+        for item in items
+        if item.get_closest_marker("long")
+        and zlib.crc32(f"{commit} {item.nodeid}".encode()) % SAMPLE
+    ]
+    config.hook.pytest_deselected(items=left)
+    out = {id(item) for item in left}
+    items[:] = [item for item in items if id(item) not in out]
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -70,6 +70,11 @@ class Soak:
         _write_down(name, f"| {name} | {commit} | {seed} | {count:,} {unit} | ", progress.seconds)
 
 
+def head() -> str:
+    """Return the commit that is checked out; nothing where there is none."""
+    return _git("rev-parse", "HEAD")
+
+
 def _commit() -> str:
     """Return the commit, marked where anything but the figures themselves has changed since."""
     said = _git("describe", "--always")

@@ -19,6 +19,8 @@ from foldmill_fabricate.plotter.ledger import State
 from foldmill_fabricate.plotter.simulator.machine import Simulator
 from foldmill_fabricate.plotter.simulator.servers import serve_tcp
 
+pytestmark = pytest.mark.long
+
 MACHINE = "generic-hpgl-600"
 
 

@@ -29,7 +29,10 @@ from foldmill_fabricate.plotter.ledger import Ledger, Program, State, words
 from foldmill_fabricate.plotter.ledger.alone import alone
 
 PROGRAMS = postgres.binaries()
-pytestmark = pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools"),
+]
 MACHINE = "generic-hpgl-600"
 JOB = Holder("job K3PX7Q", "Cancel it.")
 _NUMBERS = count()

@@ -22,6 +22,8 @@ from foldmill_fabricate.plotter.errors import LedgerFailed
 from foldmill_fabricate.plotter.ledger import Ledger, Program, Run
 from foldmill_fabricate.space import DiskFull
 
+pytestmark = pytest.mark.long
+
 STROKES = 20_000
 STAR = Order(family="rotational", preset="star-n6")
 

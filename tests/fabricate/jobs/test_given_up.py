@@ -14,6 +14,8 @@ from fabricate.jobs.workshop import PATIENCE, SPEED_UP, Workshop, workshop
 from foldmill_fabricate.jobs import JobState, Kind, Reply
 from foldmill_fabricate.plotter.ledger import State
 
+pytestmark = pytest.mark.long
+
 SLOW = SPEED_UP / 8
 """How much slower than in other tests: a person is quick enough to say something."""
 

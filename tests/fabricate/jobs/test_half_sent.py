@@ -5,9 +5,12 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import pytest
 from fabricate.jobs.workshop import PATIENCE, Workshop, workshop
 
 from foldmill_fabricate.jobs import Kind, Submission
+
+pytestmark = pytest.mark.long
 
 HALF = "Half an instruction may lie in the machine"
 

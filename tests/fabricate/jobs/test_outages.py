@@ -22,7 +22,10 @@ from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.plotter.errors import LedgerFailed
 
 PROGRAMS = postgres.binaries()
-pytestmark = pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools"),
+]
 _NUMBERS = count()
 MACHINE = "generic-hpgl-600"
 AWAY = "does not answer"

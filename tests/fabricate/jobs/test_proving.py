@@ -20,6 +20,8 @@ from foldmill_fabricate.passes import Face
 from foldmill_fabricate.sending import Job, open_job
 from foldmill_fabricate.trials import trial_program
 
+pytestmark = pytest.mark.long
+
 AWRY = (0.3, -0.2)
 """mm by which a sheet lies off after the flip."""
 

@@ -12,6 +12,8 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs import JobState, Kind, Rest
 from foldmill_fabricate.jobs.errors import JobRefused
 
+pytestmark = pytest.mark.long
+
 
 def cancelled_at(shop: Workshop, setup: str) -> None:
     """Make the sheet until a set-up is due, and end the job there."""

@@ -19,6 +19,8 @@ from foldmill_fabricate.plan import make
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.simulator.devices import adjusted
 
+pytestmark = pytest.mark.long
+
 NOBODY = "the account that the service runs under"
 
 
