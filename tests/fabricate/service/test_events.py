@@ -141,7 +141,7 @@ def test_as_many_follow_as_there_is_room_for_and_leave_nothing_behind(
 
 
 def test_who_reads_slowly_hears_everything_and_takes_no_memory_meanwhile(place: Path) -> None:
-    count, words = 1500, "x" * 4000
+    count, words = 4000, "x" * 4000
     with serving(place) as (process, url), httpx.Client(base_url=url) as client:
         happen(place, count, words)
         client.get("/healthz")
@@ -149,12 +149,11 @@ def test_who_reads_slowly_hears_everything_and_takes_no_memory_meanwhile(place: 
         slow = [Listener(client.base_url) for _ in range(6)]
         time.sleep(2)  # as much as the service would read ahead, it has by now
         grown = _resident(process.pid) - before
-        for each in slow[:2]:
-            each.read_until(count)
-            assert each.numbers == [*range(1, count + 1)]
+        slow[0].read_until(count)
+        assert slow[0].numbers == [*range(1, count + 1)]
         for each in slow:
             each.wire.close()
-        assert grown < 0.6 * len(slow) * count * len(words)
+        assert grown < 0.4 * len(slow) * count * len(words)
         assert client.get("/healthz").status_code == 200
 
 
