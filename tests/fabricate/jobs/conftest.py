@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import pytest
 from fabricate.bench import small_plan
+from fabricate.jobs import postgres
 from fabricate.verify import knife_job
 
 from foldmill_fabricate import folder
@@ -14,6 +16,7 @@ from foldmill_fabricate.jobs import Desk, Places
 from foldmill_fabricate.jobs.plotters import Plotter
 
 MACHINE = "generic-hpgl-600"
+_NUMBERS = count()
 
 
 @pytest.fixture(scope="session")
@@ -40,3 +43,17 @@ def desk(tmp_path: Path) -> Iterator[Desk]:
 def plan(desk: Desk, job_folder: Path) -> str:
     """The id of a plan that is kept."""
     return desk.keep(job_folder)
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[postgres.Server]:
+    """A running PostgreSQL server."""
+    assert postgres.PROGRAMS is not None
+    with postgres.server(postgres.PROGRAMS) as running:
+        yield running
+
+
+@pytest.fixture
+def database(server: postgres.Server) -> str:
+    """The URL of an empty database."""
+    return postgres.new_database(server, f"jobs{next(_NUMBERS)}")

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
+
 USER = "foldmill"
 
 
@@ -20,6 +22,11 @@ def binaries() -> Path | None:
     places = [Path(found).parent] if found else []
     places += sorted(Path("/usr/lib/postgresql").glob("*/bin"), reverse=True)
     return next((place for place in places if (place / "initdb").exists()), None)
+
+
+PROGRAMS = binaries()
+NEEDED = pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools")
+"""Of tests that ask for the fixture ``database``."""
 
 
 class Server:

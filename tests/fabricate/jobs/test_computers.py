@@ -7,9 +7,7 @@ import os
 import signal
 import tempfile
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -28,26 +26,12 @@ from foldmill_fabricate.plotter.holding import Held, Holder
 from foldmill_fabricate.plotter.ledger import Ledger, Program, State, words
 from foldmill_fabricate.plotter.ledger.alone import alone
 
-PROGRAMS = postgres.binaries()
 pytestmark = [
     pytest.mark.long,
-    pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools"),
+    postgres.NEEDED,
 ]
 MACHINE = "generic-hpgl-600"
 JOB = Holder("job K3PX7Q", "Cancel it.")
-_NUMBERS = count()
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[postgres.Server]:
-    assert PROGRAMS is not None
-    with postgres.server(PROGRAMS) as url:
-        yield url
-
-
-@pytest.fixture
-def database(server: postgres.Server) -> str:
-    return postgres.new_database(server, f"computers{next(_NUMBERS)}")
 
 
 def _hold(database: str, ready: Any) -> None:

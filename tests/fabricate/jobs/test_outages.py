@@ -5,9 +5,8 @@ from __future__ import annotations
 import json
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
-from itertools import count
 from pathlib import Path
 
 import httpx
@@ -21,26 +20,12 @@ from foldmill_fabricate.jobs import JobState, Kind, Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.plotter.errors import LedgerFailed
 
-PROGRAMS = postgres.binaries()
 pytestmark = [
     pytest.mark.long,
-    pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools"),
+    postgres.NEEDED,
 ]
-_NUMBERS = count()
 MACHINE = "generic-hpgl-600"
 AWAY = "does not answer"
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[postgres.Server]:
-    assert PROGRAMS is not None
-    with postgres.server(PROGRAMS) as running:
-        yield running
-
-
-@pytest.fixture
-def database(server: postgres.Server) -> str:
-    return postgres.new_database(server, f"outages{next(_NUMBERS)}")
 
 
 def test_a_server_that_goes_away_under_work_costs_no_stroke_and_no_job(

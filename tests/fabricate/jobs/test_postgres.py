@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from itertools import count
 from pathlib import Path
 from threading import Event
 
@@ -18,22 +16,8 @@ from foldmill_fabricate.jobs.errors import Clash, JobRefused
 from foldmill_fabricate.jobs.host import Host
 from foldmill_fabricate.jobs.plotters import Plotter
 
-PROGRAMS = postgres.binaries()
-pytestmark = pytest.mark.skipif(PROGRAMS is None, reason="PostgreSQL is not installed: make tools")
+pytestmark = postgres.NEEDED
 MACHINE = "generic-hpgl-600"
-_NUMBERS = count()
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[postgres.Server]:
-    assert PROGRAMS is not None
-    with postgres.server(PROGRAMS) as running:
-        yield running
-
-
-@pytest.fixture
-def database(server: postgres.Server) -> str:
-    return postgres.new_database(server, f"jobs{next(_NUMBERS)}")
 
 
 def test_a_sheet_is_cut_as_planned_though_the_service_is_killed(
