@@ -142,9 +142,9 @@ def plan(
 def formats_for(to: str | None, machine: Machine) -> list[str]:
     """Return the formats asked for, by default what the machine can use."""
     if to is None:
-        from foldmill_fabricate.writers import writer
+        from foldmill_fabricate.writers import usual_formats
 
-        return ["svg", "dxf", *([machine.language] if writer(machine) else [])]
+        return usual_formats(machine)
     formats = [name.strip() for name in to.split(",") if name.strip()]
     if not formats:
         raise FoldmillError("--to names no format; write some of svg,dxf,hpgl.")

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from foldmill.errors import InvalidInput
 from foldmill.finding import Severity
-from foldmill_fabricate.errors import CannotPlan, CannotSend
+from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.foreign.plan import Use, plan_drawing, write_drawing
 from foldmill_fabricate.foreign.read import read
 from foldmill_fabricate.machines import Machine
@@ -22,7 +22,7 @@ from foldmill_fabricate.materials import Material
 from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify import verify_folder
-from foldmill_fabricate.writers import writer
+from foldmill_fabricate.writers import require_writer, usual_formats
 
 _NAME = r"^[^/\\\x00-\x1f\x7f-\x9f]+$"
 _PEN = r"^[0-9]{1,2}=(score|inner|cut|skip)$"
@@ -92,8 +92,7 @@ def make_folder(
     Raises UnreadableFile for what is not on the list of what is followed, CannotPlan and DoesNotFit
     as planning does, CannotSend where the proof fails.
     """
-    if writer(machine) is None:
-        raise CannotPlan(f"Nothing installed writes programs in {machine.language}.")
+    require_writer(machine)
     drawing = read(data, asked.name)
     plan = plan_drawing(
         drawing,
@@ -105,7 +104,7 @@ def make_folder(
         blank=asked.blank,
         carrier=asked.carrier,
     )
-    written = write_drawing(plan, folder, ["svg", "dxf", machine.language])
+    written = write_drawing(plan, folder, usual_formats(machine))
     _refuse_unproved(folder, asked.name)
     return written
 

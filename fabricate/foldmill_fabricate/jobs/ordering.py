@@ -28,16 +28,15 @@ def carry_out(order: Order, folder: Path) -> None:
     from foldmill_fabricate import folder as folders
     from foldmill_fabricate import shelf
     from foldmill_fabricate.plan import make
-    from foldmill_fabricate.writers import writer
+    from foldmill_fabricate.writers import require_writer, usual_formats
 
     family = installed().design(order.family)
     values = family.preset(order.preset).model_dump() if order.preset else {}
     fold = family.run(family.validate({**values, **order.params}))
     material, machine = shelf.material(order.material), shelf.machine(order.machine)
-    if not writer(machine):
-        raise CannotPlan(f"Nothing installed writes programs in {machine.language}.")
+    require_writer(machine)
     plan = make(fold, material, machine, **order.options.for_make())
-    folders.write(fold, plan, folder, ["svg", "dxf", machine.language])
+    folders.write(fold, plan, folder, usual_formats(machine))
 
 
 def carry_out_elsewhere(

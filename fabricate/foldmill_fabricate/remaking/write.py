@@ -17,6 +17,7 @@ from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.remaking.make import remake
 from foldmill_fabricate.remaking.words import Fate, read_spoken
 from foldmill_fabricate.sending import open_job
+from foldmill_fabricate.writers import usual_formats
 
 
 def write_remake(
@@ -45,7 +46,7 @@ def plan_rest(
     output: Path,
     doubtful: Sequence[str] = (),
     half: Sequence[str] = (),
-    formats: Callable[[Machine], Sequence[str]] = lambda machine: ["svg", "dxf", machine.language],
+    formats: Callable[[Machine], Sequence[str]] = usual_formats,
 ) -> Plan:
     """Plan what the ledger says is missing on a sheet, write it into a folder, return the plan.
 

@@ -28,7 +28,7 @@ from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
 from foldmill_fabricate.service.storage import DONE, JOB, REFUSED, REQUEST, read, write
 from foldmill_fabricate.space import DiskFull, keeping
-from foldmill_fabricate.writers import writer
+from foldmill_fabricate.writers import usual_formats
 
 _INTERRUPTED = "The service ended while this was planned; send the request again."
 
@@ -169,7 +169,7 @@ class Plans:
         if (request.pattern is None) == (request.design is None):
             raise InvalidInput("Name a pattern by its id, or a design: one of both.")
         of, on = shelf.material(request.material), shelf.machine(request.machine)
-        formats = request.formats or ("svg", "dxf", *([on.language] if writer(on) else ()))
+        formats = request.formats or usual_formats(on)
         for slug in formats:
             installed().get(FORMATS, "format", slug)
         if request.profile not in profiles.names():  # a name, never a file
