@@ -214,8 +214,7 @@ class Desk:
 
         A job of it that ended before it was begun has made nothing, and does not stand for it.
         """
-        every = [one for one in self.store.jobs(limit=100_000) if one.remakes == sheet]
-        idle = sum(one.is_ended and not one.sheets for one in every)
+        idle = self.store.unbegun_remakes(sheet)
         return f"the rest of {sheet}, {1 + idle}" if idle else f"the rest of {sheet}"
 
     def _give_up(self, sheet: str, who: str) -> None:

@@ -79,14 +79,6 @@ class Elsewhere:
         return told
 
 
-def prove_elsewhere(path: Path, files: JobFiles, heed: Callable[[], None]) -> None:
-    """Have another process prove a folder; raises CannotSend where it must not be sent.
-
-    heed : called again and again meanwhile; what it raises ends the proof.
-    """
-    Elsewhere(heed).prove(path, files)
-
-
 def digest(files: JobFiles) -> str:
     """Return the SHA-256 of everything that a proof rests on."""
     whole = hashlib.sha256(files.plan.model_dump_json().encode())

@@ -11,9 +11,8 @@ from sqlalchemy import Engine, func, select
 
 from foldmill_fabricate.jobs import asking, rows
 from foldmill_fabricate.jobs.states import ENDED, JobState
-from foldmill_fabricate.jobs.tables import EVENTS, JOBS
+from foldmill_fabricate.jobs.tables import EVENTS, JOB_SHEETS, JOBS
 from foldmill_fabricate.jobs.values import Event, JobRecord, Question, Reply
-from foldmill_fabricate.plotter.errors import Fenced
 from foldmill_fabricate.plotter.ledger.tables import SHEETS, reading
 
 PAUSE, CANCEL = "pause", "cancel"
@@ -49,7 +48,7 @@ class JobReader:
     def job(self, name: str) -> JobRecord:
         """Return a job; raises NoSuchJob."""
         with reading(self._engine) as at:
-            return rows.record(at, rows.job_row(at, name))
+            return rows.records(at, [rows.job_row(at, name)])[0]
 
     def order(self, name: str) -> str:
         """Return the order of a design as JSON; empty for a job of a plan."""
@@ -66,7 +65,14 @@ class JobReader:
         if plotter:
             wanted = wanted.where(JOBS.c.plotter == plotter)
         with reading(self._engine) as at:
-            return [rows.record(at, row) for row in at.execute(wanted).all()]
+            return rows.records(at, at.execute(wanted).all())
+
+    def counts(self) -> dict[JobState, int]:
+        """Return how many jobs stand so, for each state."""
+        wanted = select(JOBS.c.state, func.count()).group_by(JOBS.c.state)
+        with reading(self._engine) as at:
+            found = {state: int(count) for state, count in at.execute(wanted)}
+        return {state: found.get(state.value, 0) for state in JobState}
 
     def plans_needed(self) -> set[str]:
         """Return the ids of the plans that a job, or the record of a sheet, refers to."""
@@ -107,8 +113,7 @@ class JobReader:
         """
         with reading(self._engine) as at:
             row = at.execute(select(JOBS.c.wish, JOBS.c.token).where(JOBS.c.id == name)).one()
-        if row.token != token:
-            raise Fenced(f"Job {name} was taken over by another process; this one stops.")
+        rows.require_hold(row.token, token, name)
         return str(row.wish)
 
     def questions(self, job: str = "") -> list[Question]:
@@ -125,6 +130,14 @@ class JobReader:
         """Return the answer to a question and who gave it; None while there is none."""
         with reading(self._engine) as at:
             return asking.reply(at, name)
+
+    def unbegun_remakes(self, sheet: str) -> int:
+        """Return how many jobs of the rest of a sheet have ended before a sheet was begun."""
+        began = select(JOB_SHEETS.c.job).where(JOB_SHEETS.c.job == JOBS.c.id).exists()
+        wanted = select(func.count()).where(JOBS.c.remakes == sheet, ~began)
+        with reading(self._engine) as at:
+            ended = JOBS.c.state.in_([state.value for state in ENDED])
+            return int(at.execute(wanted.where(ended)).scalar() or 0)
 
     def _by_key(self, key: str) -> Any:
         with reading(self._engine) as at:

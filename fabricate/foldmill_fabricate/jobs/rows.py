@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import secrets
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +16,7 @@ from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.states import ACTIVE, JobState
 from foldmill_fabricate.jobs.tables import JOB_SHEETS, JOBS
 from foldmill_fabricate.jobs.values import Event, JobRecord, Order, Submission
+from foldmill_fabricate.plotter.errors import Fenced
 from foldmill_fabricate.plotter.ledger.ledger import LETTERS
 from foldmill_fabricate.plotter.ledger.writing import person as person
 
@@ -120,17 +122,40 @@ def job_row(at: Connection, name: str, *, lock: bool = False) -> Any:
     return row
 
 
-def sheets(at: Connection, name: str) -> tuple[str, ...]:
-    """Return the ids of the sheets that a job has begun, in order."""
-    wanted = select(JOB_SHEETS.c.sheet).where(JOB_SHEETS.c.job == name)
-    return tuple(at.execute(wanted.order_by(JOB_SHEETS.c.number)).scalars())
+def held_row(at: Connection, name: str, token: int) -> Any:
+    """Return a job's row, locked, for the hand that holds it; raises Fenced for another."""
+    row = job_row(at, name, lock=True)
+    require_hold(row.token, token, row.id)
+    return row
 
 
-def record(at: Connection, row: Any) -> JobRecord:
-    """Return a row as a value."""
+def require_hold(current: int, token: int, name: str) -> None:
+    """Raise Fenced where a token is no longer the one of its job."""
+    if current != token:
+        raise Fenced(f"Job {name} was taken over by another process; this one stops.")
+
+
+def sheets(at: Connection, names: Collection[str]) -> dict[str, tuple[str, ...]]:
+    """Return the ids of the sheets that jobs have begun, in order, by the job."""
+    wanted = select(JOB_SHEETS.c.job, JOB_SHEETS.c.sheet).where(JOB_SHEETS.c.job.in_(names))
+    found: dict[str, tuple[str, ...]] = dict.fromkeys(names, ())
+    for job, sheet in at.execute(wanted.order_by(JOB_SHEETS.c.number)):
+        found[job] += (sheet,)
+    return found
+
+
+def records(at: Connection, found: Sequence[Any]) -> list[JobRecord]:
+    """Return rows as values; the sheets of all are asked for at once."""
     names = set(JobRecord.model_fields) - {"state", "sheets"}
-    values = {name: getattr(row, name) for name in names}
-    return JobRecord(state=JobState(row.state), sheets=sheets(at, row.id), **values)
+    begun = sheets(at, [row.id for row in found])
+    return [
+        JobRecord(
+            state=JobState(row.state),
+            sheets=begun[row.id],
+            **{name: getattr(row, name) for name in names},
+        )
+        for row in found
+    ]
 
 
 def event(row: Any) -> Event:

@@ -24,7 +24,7 @@ from foldmill_fabricate.jobs.values import (
     Reply,
     Submission,
 )
-from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused
+from foldmill_fabricate.plotter.errors import LedgerFailed, LedgerRefused
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.plotter.ledger.ledger import utc
 from foldmill_fabricate.plotter.ledger.tables import connect
@@ -181,9 +181,7 @@ class JobStore(JobReader):
     def move(self, name: str, token: int, to: JobState, note: str = "") -> None:
         """Change a job's state, as the one that holds its token; raises Fenced for another."""
         with self._engine.begin() as at:
-            row = rows.job_row(at, name, lock=True)
-            if row.token != token:
-                raise Fenced(f"Job {name} was taken over by another process; this one stops.")
+            row = rows.held_row(at, name, token)
             if row.state != to.value:
                 row = self._unpaused(at, row, to)
                 self._set(at, row, to, note or to.value, rows.WORKER, note=note)
@@ -191,10 +189,8 @@ class JobStore(JobReader):
     def begin_sheet(self, name: str, token: int, sheet: str) -> int:
         """Keep the id of the next sheet of a job; return which one it is: 1, 2, 3 …"""
         with self._engine.begin() as at:
-            row = rows.job_row(at, name, lock=True)
-            if row.token != token:
-                raise Fenced(f"Job {name} was taken over by another process; this one stops.")
-            number = 1 + len(rows.sheets(at, name))
+            row = rows.held_row(at, name, token)
+            number = 1 + len(rows.sheets(at, [row.id])[row.id])
             at.execute(insert(JOB_SHEETS).values(job=name, number=number, sheet=sheet))
             self._note(at, name, f"sheet {sheet} begun", JobState(row.state), rows.WORKER)
         return number
@@ -219,9 +215,7 @@ class JobStore(JobReader):
     def ask(self, token: int, question: asking.Asked) -> Question:
         """Ask a person; raises Fenced for a hand that lost the job."""
         with self._engine.begin() as at:
-            row = rows.job_row(at, question.job, lock=True)
-            if row.token != token:
-                raise Fenced(f"Job {row.id} was taken over by another process; this one stops.")
+            row = rows.held_row(at, question.job, token)
             asking.withdraw(at, row.id)
             made = asking.put(at, question, stamp(self._now()))
             waits = question.waits_as

@@ -9,7 +9,7 @@ from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram
 from prometheus_client.metrics_core import GaugeMetricFamily, Metric
 
 from foldmill_fabricate.delivering import Sent
-from foldmill_fabricate.jobs import Desk, JobState, Kind
+from foldmill_fabricate.jobs import Desk, Kind
 from foldmill_fabricate.jobs.values import JobRecord
 from foldmill_fabricate.jobs.work import Tell
 from foldmill_fabricate.passes import ProgramFile
@@ -108,11 +108,9 @@ class Measured(Tell):
     def collect(self) -> Iterator[Metric]:
         """Yield the figures of now: what is counted here, and jobs and questions as they stand."""
         yield from self.registry.collect()
-        about = "Jobs that stand so; ended ones of the last thousand."
-        family = GaugeMetricFamily("foldmill_jobs", about, labels=["state"])
-        found = [job.state for job in self._desk.jobs()]
-        for state in JobState:
-            family.add_metric([state.value], found.count(state))
+        family = GaugeMetricFamily("foldmill_jobs", "Jobs that stand so.", labels=["state"])
+        for state, count in self._desk.store.counts().items():
+            family.add_metric([state.value], count)
         yield family
         about = "What people are asked at the machines and have not answered."
         family = GaugeMetricFamily("foldmill_questions", about, labels=["kind"])

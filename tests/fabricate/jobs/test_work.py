@@ -12,7 +12,7 @@ import pytest
 
 from foldmill_fabricate.jobs import Desk, JobState, Kind, Question, Reply, Submission
 from foldmill_fabricate.jobs.errors import Cancelled, Leave
-from foldmill_fabricate.jobs.proving import prove_elsewhere
+from foldmill_fabricate.jobs.proving import Elsewhere
 from foldmill_fabricate.jobs.work import Shop, watching, work
 from foldmill_fabricate.verify import read_folder
 
@@ -107,7 +107,7 @@ def test_a_job_is_ended_while_its_plan_is_proved(job_folder: Path) -> None:
             raise error
 
     with pytest.raises(Cancelled):
-        prove_elsewhere(job_folder, read_folder(job_folder), heed)
+        Elsewhere(heed).prove(job_folder, read_folder(job_folder))
 
 
 def test_a_plotter_that_is_named_wrongly_is_asked_about(desk: Desk, plan: str) -> None:

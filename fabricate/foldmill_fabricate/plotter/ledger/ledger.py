@@ -158,12 +158,9 @@ class Ledger:
 
     def open_sheets(self, job: str | None = None) -> list[SheetRecord]:
         """Return the sheets that were begun and are not finished, the newest first."""
-        wanted = select(SHEETS).order_by(SHEETS.c.number.desc())
-        if job is not None:
-            wanted = wanted.where(SHEETS.c.job == job)
         with reading_of(self._engine) as at:
-            sheets = [sheet_record(at, row) for row in at.execute(wanted).all()]
-        return [sheet for sheet in sheets if sheet.is_open and sheet.is_begun]
+            found = at.execute(reading.open_sheets(job)).all()
+            return [sheet_record(at, row) for row in found]
 
     def record(self, sheet: str, number: int) -> Record:
         """Return one program of a sheet."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from sqlalchemy import Connection, Row, select
+from sqlalchemy import Connection, Row, Select, exists, select
 
 from foldmill_fabricate.plotter.errors import LedgerRefused
 from foldmill_fabricate.plotter.ledger.tables import ANSWERS, AUDIT, PROGRAMS, RUNS, SHEETS
@@ -41,6 +41,18 @@ def sheet(at: Connection, name: str) -> SheetRecord:
     if row is None:
         raise LedgerRefused(f"The ledger knows no sheet {name!r}; look at its id again.")
     return sheet_record(at, row)
+
+
+def open_sheets(job: str | None) -> Select[Any]:
+    """Return the statement that finds what was begun and is not finished, the newest first.
+
+    Nothing else is read: a workshop has thousands that are finished.
+    """
+    ended = [State.DONE.value, State.SPOILED.value]
+    left = (PROGRAMS.c.sheet == SHEETS.c.id) & PROGRAMS.c.state.not_in(ended)
+    begun = exists().where(RUNS.c.sheet == SHEETS.c.id)
+    wanted = select(SHEETS).where(exists().where(left), begun).order_by(SHEETS.c.number.desc())
+    return wanted if job is None else wanted.where(SHEETS.c.job == job)
 
 
 def sheet_record(at: Connection, row: Row[Any]) -> SheetRecord:
