@@ -11,9 +11,12 @@ import pytest
 from hypothesis import settings
 from soaking import Soak, head
 
+from foldmill_fabricate.garbage import look_rarely
+
 # No test is timed, on whatever machine it runs; and a test that fails, fails for everybody.
 settings.register_profile("foldmill", deadline=None, derandomize=True)
 settings.load_profile("foldmill")
+look_rarely()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

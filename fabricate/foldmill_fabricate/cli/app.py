@@ -30,6 +30,7 @@ from foldmill_fabricate.cli import (
     simulating,
     testing,
 )
+from foldmill_fabricate.garbage import look_rarely
 
 app = typer.Typer(
     name="foldmill",
@@ -79,6 +80,7 @@ serving.add_to(app)
 
 def main() -> None:
     """Run the command line; expected failures end as one sentence on standard error."""
+    look_rarely()
     try:
         code = app(prog_name="foldmill", standalone_mode=False)
     except FoldmillError as error:

@@ -17,6 +17,7 @@ from typing import Any
 
 from foldmill.errors import FoldmillError
 from foldmill_fabricate.beside import step_aside
+from foldmill_fabricate.garbage import look_rarely
 from foldmill_fabricate.space import DiskFull, keeping
 
 _LOOK = 0.2
@@ -82,6 +83,7 @@ def _heard(
 def serve(work: Callable[[dict[str, Any]], Mapping[str, Any]]) -> None:
     """Do, as such a process, what standard input tells, and say how that ended."""
     step_aside()
+    look_rarely()
     said: dict[str, Any] = {"refused": ""}
     try:
         with keeping(Path(tempfile.gettempdir())):

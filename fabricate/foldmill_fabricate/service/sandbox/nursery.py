@@ -22,6 +22,7 @@ from typing import Any
 
 from foldmill_fabricate.beside import step_aside
 from foldmill_fabricate.confining import Limits
+from foldmill_fabricate.garbage import look_rarely
 from foldmill_fabricate.service.sandbox.child import live
 
 GRACE = 0.5
@@ -114,6 +115,7 @@ def report(said: dict[str, Any]) -> None:
 def main() -> None:
     """Import the modules named on the command line, then obey."""
     step_aside()
+    look_rarely()
     for name in sys.argv[1:]:
         warm = getattr(import_module(name), "warm", None)
         if warm is not None:
