@@ -15,6 +15,8 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from filelock import FileLock
+
 from foldmill.errors import InvalidInput, UnknownName, UnreadableFile
 from foldmill_fabricate.files import write_whole
 
@@ -79,17 +81,19 @@ class Tokens:
             raise InvalidInput(
                 f"{name!r} is no name for a token: 1 to 40 letters, digits, dots and dashes."
             )
-        if any(token.name == name for token in self.every):
-            raise InvalidInput(f"There is a token named {name!r}; revoke it first.")
         secret = f"{MARK}{secrets.token_urlsafe(32)}"
-        self._write([*self.every, Token(name, scope, _digest(secret))])
+        with self._alone():
+            if any(token.name == name for token in self.every):
+                raise InvalidInput(f"There is a token named {name!r}; revoke it first.")
+            self._write([*self.every, Token(name, scope, _digest(secret))])
         return secret
 
     def revoke(self, name: str) -> None:
         """Let a token no longer count; raises UnknownName."""
-        if not any(token.name == name for token in self.every):
-            raise UnknownName.of("token", name, (token.name for token in self.every))
-        self._write([token for token in self.every if token.name != name])
+        with self._alone():
+            if not any(token.name == name for token in self.every):
+                raise UnknownName.of("token", name, (token.name for token in self.every))
+            self._write([token for token in self.every if token.name != name])
 
     def find(self, secret: str) -> Token | None:
         """Return the token of a secret; takes as long for a wrong one as for a right one."""
@@ -98,6 +102,11 @@ class Tokens:
             if hmac.compare_digest(token.sha256, digest):
                 found = token
         return found
+
+    def _alone(self) -> FileLock:
+        """Keep others from changing them: what was revoked meanwhile must not be written back."""
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        return FileLock(f"{self._file}.lock", mode=0o600)
 
     def _read(self) -> tuple[Token, ...]:
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import stat
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ def test_a_token_is_found_by_its_secret_and_the_secret_is_kept_nowhere(tmp_path:
 
 def test_only_its_owner_reads_the_file(tmp_path: Path) -> None:
     Tokens(tmp_path).new("anna", Scope.VIEW)
-    assert [stat.S_IMODE(file.stat().st_mode) for file in tmp_path.iterdir()] == [0o600]
+    assert {stat.S_IMODE(file.stat().st_mode) for file in tmp_path.iterdir()} == {0o600}
 
 
 def test_no_two_tokens_are_alike_and_none_is_short(tmp_path: Path) -> None:
@@ -65,3 +66,15 @@ def test_a_broken_file_lets_nobody_in(tmp_path: Path, content: str) -> None:
             Tokens(tmp_path).find("anything")
     else:
         assert Tokens(tmp_path).find("anything") is None
+
+
+def test_tokens_that_are_made_and_revoked_at_once_are_all_as_was_wanted(tmp_path: Path) -> None:
+    """Each by a command of its own: none writes back what another has revoked."""
+    old = [f"old{k}" for k in range(12)]
+    for name in old:
+        Tokens(tmp_path).new(name, Scope.VIEW)
+    with ThreadPoolExecutor(8) as pool:
+        made = pool.map(lambda k: Tokens(tmp_path).new(f"new{k}", Scope.VIEW), range(12))
+        gone = pool.map(lambda name: Tokens(tmp_path).revoke(name), old)
+        assert len({*made}) == len([*gone]) == 12
+    assert [token.name for token in Tokens(tmp_path).every] == sorted(f"new{k}" for k in range(12))
