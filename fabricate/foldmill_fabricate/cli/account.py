@@ -35,12 +35,12 @@ def describe(plan: Plan) -> str:
 
 
 def gap(figures: Figures) -> str:
-    """Say how far travel is above what is proved that no order goes below; empty where unknown."""
+    """Say below what length travel is proved not to go, in any order; empty where unknown."""
     above, bound = figures.travel_gap, figures.travel_bound
     if above is None:
         return ""
-    share = f" ({100 * above / bound:.1f} %)" if above < bound else ""
-    return f", {above / 1000:.2f} m{share} above {bound / 1000:.2f} m, which no order goes below"
+    share = f", {100 * above / bound:.1f} % below" if above < bound else ""
+    return f"; no order travels less than {bound / 1000:.2f} m{share}"
 
 
 def next_steps(plan: Plan, folder: Path) -> str:

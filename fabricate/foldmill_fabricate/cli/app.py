@@ -109,12 +109,20 @@ def _refuse_use(error: Any) -> None:
         sys.exit(2)
     command = context.command_path if context else "foldmill"
     said = _NUMBER.sub(r"write \1 in digits, without its unit", said.replace("Value error, ", ""))
+    for theirs, ours in _BOUNDS.items():
+        said = said.replace(theirs, ours)
     said = said if said.endswith(("?", ".")) else f"{said}."
     _stop(f"{said} `{command} --help` tells what there is.")
 
 
 _NUMBER = re.compile(r"Input should be a valid (number|integer), unable to parse string as an? \w+")
 """What the reader of options says of what is no number."""
+_BOUNDS = {
+    "Input should be greater than or equal to": "it must be at least",
+    "Input should be less than or equal to": "it must be at most",
+    "Input should be": "it must be",
+}
+"""What it says of what is too small or too large, in our words."""
 _REMEDIES: dict[type[OSError], str] = {
     FileNotFoundError: " Check its name, and in which folder you are.",
     FileExistsError: " A file stands where a folder is to be: name another.",

@@ -37,7 +37,8 @@ def report(verification: Verification) -> str:
         for face in FACES
     ]
     lines += [f"Holes and ties        {figures.holes} and {figures.ties}", ""]
-    return "\n".join([*lines, *_findings(verification), "", _verdict(verification), ""])
+    again = ["", _verdict(verification)] if verification.findings else []  # a screen below it
+    return "\n".join([*lines, *_findings(verification), *again, ""])
 
 
 def ranked(findings: Sequence[Finding]) -> list[list[Finding]]:

@@ -131,6 +131,7 @@ BENCH = "bench=sim://generic-hpgl-600@generic-hpgl-600"
         (["machines", "--show", "grbl-lazer"], "Did you mean 'grbl-laser'?"),
         (["plan", "a.fold", "-o", "job", "--blank", "big"], "write WIDTHxHEIGHT in mm"),
         (["plan", "a.fold", "-o", "job", "--blank", "50x50"], "mm are missing"),
+        (["plan", "a.fold", "-o", "job", "--copies", "0"], "'--copies': it must be at least 1."),
         (["plan", "a.fold", "-o", "job", "--to", ","], "--to names no format"),
         (["plan", "a.fold", "-o", "job", "--to", "dwg"], "There is no format 'dwg'"),
         (["verify", "nowhere"], "nowhere"),
@@ -229,7 +230,7 @@ def test_a_motion_is_written_as_frames_and_as_a_moving_picture(foldmill: Run) ->
 
 def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
     foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold")
-    foldmill("plan", "stool.fold", "-o", "job")
+    foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "job")
     program = Path("job/2-front-score.hpgl")
     program.write_bytes(program.read_bytes().replace(b"PD", b"PU", 1))
     assert foldmill("verify", "job", "--picture", "wrong.png").code == 1
@@ -241,7 +242,7 @@ def test_an_edited_program_is_not_sent(foldmill: Run) -> None:
 
 def test_a_plan_with_an_error_of_its_own_is_written_and_told_but_not_sent(foldmill: Run) -> None:
     foldmill("design", "rotational", "--preset", "lampshade-n12", "-o", "a.fold")
-    planned = foldmill("plan", "a.fold", "-o", "job")
+    planned = foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     assert planned.code == 1
     assert "groove ends are wanted" in planned.out
     assert foldmill("verify", "job").code == 1
@@ -258,7 +259,7 @@ def test_a_sheet_with_valleys_only_is_loaded_with_its_reverse_up(foldmill: Run) 
     rim = [[k, (k + 1) % 6] for k in range(6)]
     fold = Fold(CreasePattern.from_lines(corners, [*rim, [1, 4]], "BBBBBBV"))
     Path("v.fold").write_text(write(fold))
-    assert foldmill("plan", "v.fold", "-o", "job").code == 0
+    assert foldmill("plan", "v.fold", "--to", "hpgl", "-o", "job").code == 0
     url = "sim://valleys?machine=generic-hpgl-600"
     assert foldmill("send", "job", "--port", url, "--yes", "--draw", "cut").code == 0
     assert "set-up-1" not in Path("cut/front.svg").read_text()
@@ -267,7 +268,7 @@ def test_a_sheet_with_valleys_only_is_loaded_with_its_reverse_up(foldmill: Run) 
 
 def test_a_job_is_not_sent_to_a_simulator_of_another_machine(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     told = foldmill("send", "job", "--port", "sim://generic-hpgl-pens", "--yes")
     assert told.code == 2
     assert "is made for generic-hpgl-600" in told.err
@@ -277,7 +278,7 @@ def test_a_folder_for_pictures_that_is_a_file_is_refused_before_anything_is_cut(
     foldmill: Run,
 ) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     told = foldmill("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--draw", "a.fold")
     assert told.code == 2
     assert "executed" not in told.out
@@ -285,7 +286,7 @@ def test_a_folder_for_pictures_that_is_a_file_is_refused_before_anything_is_cut(
 
 def test_what_send_says_as_json_is_json(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     url = "sim://json?machine=generic-hpgl-600"
     told = foldmill("send", "job", "--port", url, "--yes", "--draw", "cut", "--json")
     assert len(json.loads(told.out)) == 4
@@ -296,7 +297,7 @@ def test_a_port_that_is_not_there_is_told_before_a_sheet_is_loaded(
     foldmill: Run, port: str
 ) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     told = foldmill("send", "job", "--port", port)
     assert told.code == 2
     assert "Load" not in told.out + told.err
@@ -304,7 +305,7 @@ def test_a_port_that_is_not_there_is_told_before_a_sheet_is_loaded(
 
 def test_an_unconfirmed_program_ends_the_job(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     told = foldmill("send", "job", "--port", "sim://generic-hpgl-600?fault=silence@6500", "--yes")
     assert told.code != 0
     assert "2-front-score" not in told.out
@@ -318,7 +319,7 @@ def test_a_signal_to_end_stops_the_machine_first() -> None:
 
 def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     told = foldmill("send", "job", "--port", "/dev/ttyUSB99", "--yes")
     assert told.code == 2
     assert "somebody has to load" in told.err
@@ -326,7 +327,7 @@ def test_yes_is_refused_on_a_real_port(foldmill: Run) -> None:
 
 def test_a_job_fitted_to_marks_is_sent_and_a_wrong_reading_is_not(foldmill: Run) -> None:
     foldmill("design", "tuck", "--preset", "stool-n8", "-o", "stool.fold")
-    foldmill("plan", "stool.fold", "-o", "job")
+    foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "job")
     send = ("send", "job", "--port", "sim://generic-hpgl-600", "--yes", "--pass", "reverse")
     good = foldmill(*send, "--marks", "60.9,539.2;539.9,539.2;80.9,80.2;519.9,80.2")
     assert "shift +0.40, -0.30 mm" in good.out

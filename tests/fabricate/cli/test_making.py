@@ -97,19 +97,19 @@ def test_copies_are_planned_counted_and_verified(
 def test_the_plan_says_how_far_its_travel_is_above_what_no_order_goes_below(
     job: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert foldmill("plan", "stool.fold", "-o", "job", "--json") == 0
+    assert foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "job", "--json") == 0
     figures = json.loads(capsys.readouterr().out)["figures"]
     above = figures["travel"] - figures["travel_bound"]
     assert figures["travel_gap"] == pytest.approx(above)
     assert 0 < above < figures["travel"]
-    assert foldmill("plan", "stool.fold", "-o", "again") == 0
+    assert foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "again") == 0
     said = capsys.readouterr().out
-    assert f"m, {above / 1000:.2f} m above {figures['travel_bound'] / 1000:.2f} m, which" in said
+    assert f"m; no order travels less than {figures['travel_bound'] / 1000:.2f} m\n" in said
 
 
 def test_a_small_gap_is_told_as_a_share_too() -> None:
     known = Figures(strokes=2, lifts=2, drawn=9, travel=1030, travel_bound=1000, seconds=1)
-    assert gap(known) == ", 0.03 m (3.0 %) above 1.00 m, which no order goes below"
+    assert gap(known) == "; no order travels less than 1.00 m, 3.0 % below"
     assert gap(known.model_copy(update={"travel_bound": 0})) == ""
 
 
