@@ -84,6 +84,7 @@ def test_the_table_has_every_machine_with_every_material_once() -> None:
 MATERIALS = handbook.shipped_materials()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("machine", handbook.shipped_machines(), ids=lambda m: m.slug)
 def test_the_table_says_what_planning_says(machine: Machine) -> None:
     """One material for each machine, another for every machine; the command makes all."""

@@ -19,7 +19,7 @@ def test_a_transcript_of_the_command_line_is_the_wire_and_can_be_played_back(
     foldmill: Run, tmp_path: Path
 ) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     url, paper = "sim://written-down?machine=generic-hpgl-600", tmp_path / "wire.jsonl"
     sent = foldmill(
         "send", "job", "--port", url, "--yes", "--pass", "front", "--transcript", str(paper)
@@ -38,7 +38,7 @@ def test_a_transcript_of_the_command_line_is_the_wire_and_can_be_played_back(
 
 def test_a_transcript_that_cannot_be_written_is_told_before_anything_is_cut(foldmill: Run) -> None:
     foldmill("design", "rotational", "-o", "a.fold")
-    foldmill("plan", "a.fold", "-o", "job")
+    foldmill("plan", "a.fold", "--to", "hpgl", "-o", "job")
     url = "sim://not-written?machine=generic-hpgl-600"
     told = foldmill("send", "job", "--port", url, "--yes", "--transcript", "nowhere/wire.jsonl")
     assert told.code == 2

@@ -94,6 +94,7 @@ def test_without_the_guard_a_killed_service_cuts_twice_by_itself(tmp_path: Path)
         assert twice.keys() <= shop.truth.keys(), "what is too much are lines of the plan, again"
 
 
+@pytest.mark.long
 def test_a_service_that_is_told_to_end_stops_the_machine_and_waits_for_a_word(
     tmp_path: Path,
 ) -> None:
@@ -112,6 +113,7 @@ def test_a_service_that_is_told_to_end_stops_the_machine_and_waits_for_a_word(
         shop.check_ledger()
 
 
+@pytest.mark.long
 def test_when_the_machine_fails_the_job_asks_and_is_finished_on_a_word(
     tmp_path: Path, soak: Soak
 ) -> None:

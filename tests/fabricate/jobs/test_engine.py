@@ -45,6 +45,7 @@ def give_turns(file: Path, done: Path) -> None:
     done.write_text(str(len(taken)))
 
 
+@pytest.mark.long
 def test_turns_that_are_over_are_forgotten(tmp_path: Path) -> None:
     file, done = tmp_path / "engine.sqlite", tmp_path / "done"
     process = forks().Process(target=give_turns, args=(file, done))
@@ -113,6 +114,7 @@ def test_what_nobody_foresaw_is_logged_and_the_job_has_another_turn(tmp_path: Pa
     assert "Traceback" in told, "whoever mends it sees where"
 
 
+@pytest.mark.long
 def test_a_turn_whose_end_could_not_be_written_down_does_not_block_its_plotter(
     tmp_path: Path,
 ) -> None:

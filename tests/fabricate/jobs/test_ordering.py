@@ -10,13 +10,13 @@ from threading import Event, Thread
 
 import pytest
 
-from foldmill.errors import InvalidInput
+from foldmill.errors import FoldmillError, InvalidInput
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs import Desk, JobState, Order, Submission
 from foldmill_fabricate.jobs.engine import PLANNING
 from foldmill_fabricate.jobs.errors import Leave
 from foldmill_fabricate.jobs.host import Host
-from foldmill_fabricate.jobs.ordering import carry_out_elsewhere
+from foldmill_fabricate.jobs.ordering import carry_out, carry_out_elsewhere
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.plan_options import PlanOptions, read_options
 from foldmill_fabricate.verify import verify_folder
@@ -39,14 +39,22 @@ def test_an_ordered_design_becomes_a_job_folder_that_verifies(tmp_path: Path) ->
         ({"preset": "nobody"}, "nobody"),
         ({"material": "gold-leaf"}, "gold-leaf"),
         ({"options": PlanOptions(blank=(10.0, 10.0))}, "blank"),
-        ({"family": "waterbomb", "params": {"surface": {"mesh": "/etc/passwd"}}}, "surface"),
     ],
 )
 def test_what_cannot_be_planned_is_refused_by_its_sentence(
     tmp_path: Path, change: dict[str, object], words: str
 ) -> None:
     order = STAR.model_copy(update={"preset": "", **change})
-    with pytest.raises(CannotPlan, match=words):
+    with pytest.raises(FoldmillError, match=words):
+        carry_out(order, tmp_path / "job")
+    assert not (tmp_path / "job").exists()
+
+
+def test_a_refusal_of_the_process_that_plans_is_heard_and_it_reads_no_file(tmp_path: Path) -> None:
+    """What an order says comes from elsewhere, and may name no file of this computer."""
+    mesh = {"surface": {"mesh": "/etc/passwd"}}
+    order = STAR.model_copy(update={"preset": "", "family": "waterbomb", "params": mesh})
+    with pytest.raises(CannotPlan, match="surface"):
         carry_out_elsewhere(order, tmp_path / "job", Event())
     assert not (tmp_path / "job").exists()
 

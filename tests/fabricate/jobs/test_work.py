@@ -54,6 +54,7 @@ def asked(desk: Desk, *kinds: Kind) -> Question:
     pytest.fail("it is not asked")
 
 
+@pytest.mark.long
 def test_a_sheet_that_is_made_is_taken_off_though_the_service_ended_before_anybody_said_so(
     desk: Desk, plan: str
 ) -> None:

@@ -94,6 +94,7 @@ def test_the_page_in_the_docs_shows_every_preset_there_is(golden: Golden) -> Non
     assert {f"pictures/{file.name}" for file in (DOCS / "pictures").iterdir()} >= named
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("slug", "name"), EACH)
 def test_the_pictures_in_the_docs_are_what_is_drawn_now(
     slug: str, name: str, golden: Golden

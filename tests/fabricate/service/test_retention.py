@@ -66,6 +66,7 @@ def left(before: Left, tmp_path: Path) -> Left:
     return tmp_path / "state", *before[1:]
 
 
+@pytest.mark.long
 def test_what_no_job_needs_goes_after_its_days_and_a_history_stays_whole(left: Left) -> None:
     state, job, needed, idle = left
     age(state, 31)
@@ -113,6 +114,7 @@ def test_half_written_uploads_and_drafts_of_a_crash_are_gone_when_it_starts_agai
         until(lambda: not draft.parent.exists())
 
 
+@pytest.mark.long
 def test_who_runs_the_service_says_for_how_many_days(left: Left) -> None:
     state, _, needed, idle = left
     age(state, 6)
