@@ -257,6 +257,8 @@ class Workshop:
                 if until():
                     return
                 for question in self.at.questions():
+                    if until():  # it was asked meanwhile, and is not to be answered
+                        return
                     self._answer(question)
                     end = time.monotonic() + PATIENCE
             assert time.monotonic() < end, self.log()
