@@ -51,9 +51,6 @@ _ENDS = {
     Status.FAULT: State.INTERRUPTED,
 }
 
-_BROKEN_OFF = {State.RUNNING, State.INTERRUPTED, State.SPOILED}
-"""States of a program whose last instruction may be sent in half."""
-
 
 @dataclass(frozen=True)
 class Sent:
@@ -244,10 +241,11 @@ class _Work:
         """Say what may lie in the machine, where something broke off that nobody has spoken of."""
         bench = self.bench
         last = self.ledger.last_on(bench.device)
-        of_another = last is not None and last.sheet != self.sheet and last.state in _BROKEN_OFF
-        answers = self.ledger.answers(self.sheet)
-        of_a_trial = not self.record.runs and trials.is_broken_off(answers, self.number)
-        return recovery.half(bench.job.plan.machine) if of_another or of_a_trial else ""
+        machine, answers = bench.job.plan.machine, self.ledger.answers(self.sheet)
+        if not self.record.runs and trials.is_broken_off(answers, self.number):
+            return recovery.half(machine)
+        of_another = last is not None and last.sheet != self.sheet
+        return recovery.left_in(machine, last) if of_another else ""
 
     def try_presets(self) -> None:
         """Cut in the waste what nobody has tried, before anything of the part is cut so."""

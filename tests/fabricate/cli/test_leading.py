@@ -15,7 +15,8 @@ from foldmill_fabricate.cli.leading import read_step
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.jogging import expected_marks
 from foldmill_fabricate.passes import Face
-from foldmill_fabricate.plotter.ledger import Ledger
+from foldmill_fabricate.plotter.ledger import Ledger, Program
+from foldmill_fabricate.plotter.lock import device_of
 from foldmill_fabricate.sheet import turned
 
 SIM = "sim://generic-hpgl-600"
@@ -35,6 +36,36 @@ def test_a_step_is_made_within_the_limits_only(foldmill: Run) -> None:
     told = foldmill("jog", "-20", "0", *words)
     assert told.code == 2
     assert "5.00 mm beyond what generic-hpgl-600 reaches" in told.err
+
+
+@pytest.mark.parametrize(
+    ("slug", "word", "code"),
+    [("roland-like-600", "", 2), ("roland-like-600", "yes", 0), ("generic-hpgl-600", "", 0)],
+)
+def test_who_leads_a_machine_on_which_a_program_broke_off_says_first_that_nothing_is_left_in_it(
+    foldmill: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, slug: str, word: str, code: int
+) -> None:
+    """The first hop would end half an instruction; one that can drop it is told to."""
+    small_job(Path("job"), small_plan(slug))
+    ledger = Ledger(tmp_path / "ledger.sqlite")
+    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url, _who="": ledger)
+    url = f"sim://broken-off-{code}?machine={slug}"
+    programs = [Program("1-front-score.hpgl", "front", "b" * 64, 9)]
+    sheet = ledger.lay("a" * 64, programs, title="Star", machine=slug, material="pp-0.75").id
+    ledger.claim(sheet, 0, device_of(url)).advance(3, 1)
+    asked: list[str] = []
+
+    def confirm(text: str, **_: object) -> bool:
+        asked.append(text)
+        return word == "yes"
+
+    monkeypatch.setattr("typer.confirm", confirm)
+    told = foldmill("frame", "job", "--port", url)
+    assert told.code == code, told.err
+    assert [("switch the machine off and on" in text) for text in asked] == (
+        [] if slug == "generic-hpgl-600" else [True]
+    )
+    assert ("Traced" in told.out) == (code == 0)
 
 
 def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(
