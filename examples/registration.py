@@ -11,7 +11,8 @@ from foldmill import installed
 from foldmill_fabricate import shelf
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.jobsheet.flip_drawing import flip_picture
-from foldmill_fabricate.passes import Plan, RegistrationKind
+from foldmill_fabricate.kinds import RegistrationKind
+from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.pictures.budget import budget_picture
 from foldmill_fabricate.plan import make
 

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 from foldmill import Fold, installed
 from foldmill_fabricate.coupon.make import make
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.ladders import Coupon
-from foldmill_fabricate.materials import Kind
 from foldmill_fabricate.passes import Plan
 
 

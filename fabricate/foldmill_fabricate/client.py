@@ -18,11 +18,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from foldmill_fabricate.calling import Calling
 from foldmill_fabricate.files import write_all
-from foldmill_fabricate.foreign import Asked
 from foldmill_fabricate.jobs.rows import person
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.values import (
@@ -34,9 +33,13 @@ from foldmill_fabricate.jobs.values import (
     Rest,
     Submission,
 )
+from foldmill_fabricate.names import PLAN
 from foldmill_fabricate.service import answers, models
 from foldmill_fabricate.service.answers import Unreachable as Unreachable
 from foldmill_fabricate.service.unpacking import pack
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.foreign import Asked
 
 T = TypeVar("T")
 _LOOK = 0.3
@@ -143,7 +146,7 @@ class Client(Calling):
 
     def save(self, plan: models.PlanStatus, folder: Path) -> None:
         """Write the files of a plan that is done into a folder, plan.json last."""
-        names = sorted((row.name for row in plan.files), key=lambda name: name == "plan.json")
+        names = sorted((row.name for row in plan.files), key=lambda name: name == PLAN)
         write_all(folder, {n: self._bytes(f"/plans/{plan.id}/files/{n}") for n in names})
 
     # ── jobs ─────────────────────────────────────────────────────────────────────────────────────

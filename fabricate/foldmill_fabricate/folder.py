@@ -19,12 +19,9 @@ from foldmill_fabricate.coupon.answers import NAME as ANSWERS
 from foldmill_fabricate.coupon.answers import template
 from foldmill_fabricate.files import write_all
 from foldmill_fabricate.hooks import FORMATS
+from foldmill_fabricate.names import JOB_SHEET, PATTERN, PLAN
 from foldmill_fabricate.passes import Plan, ProgramFile
 from foldmill_fabricate.profiles import Style
-
-PLAN = "plan.json"
-PATTERN = "pattern.fold"
-JOB_SHEET = "job-sheet.pdf"
 
 
 def write(

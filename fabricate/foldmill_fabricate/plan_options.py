@@ -8,8 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from foldmill.errors import InvalidInput
 from foldmill.refusals import explain
-from foldmill_fabricate.materials import Kind
-from foldmill_fabricate.passes import RegistrationKind
+from foldmill_fabricate.kinds import FlipKind, Kind, RegistrationKind, Unassigned
 
 _MOST_MM = 1e5
 _Side = Annotated[float, Field(gt=0, lt=_MOST_MM)]
@@ -28,9 +27,9 @@ class PlanOptions(BaseModel):
     """Width and height, mm; by default the material's stock size."""
     carrier: tuple[_Side, _Side] | None = None
     """Width and height, mm; by default the machine's mat."""
-    flip: Literal["left-right", "end-over-end"] = "left-right"
+    flip: FlipKind = "left-right"
     """About which axis the sheet is turned over."""
-    unassigned: Literal["front", "reverse", "skip"] | None = None
+    unassigned: Unassigned | None = None
     """Where creases without mountain or valley are scored."""
     score: Kind | None = None
     """How creases are made; by default the first the machine can do."""

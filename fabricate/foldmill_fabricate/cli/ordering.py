@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from foldmill import FoldmillError
+from foldmill_fabricate.names import PLAN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,7 +36,7 @@ def wanted(desk: Jobs, what: str, plotter: str, words: Words) -> dict[str, Any]:
     if drawings.is_drawing(path) and not path.is_dir():
         return {"plan": _drawn(desk, path, plotter, words)}
     drawings.refuse_pens(words.pens)
-    if (path / "plan.json").is_file():
+    if (path / PLAN).is_file():
         if words.preset or words.params or words.options:
             raise FoldmillError("--preset, --param and --option are of a design, not of a folder.")
         return {"plan": desk.keep(path)}

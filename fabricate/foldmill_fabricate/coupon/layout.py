@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
-from typing import Literal
 
 import numpy as np
 
 from foldmill_fabricate.coupon import lettering
 from foldmill_fabricate.coupon.trials import ANGLES
 from foldmill_fabricate.errors import DoesNotFit
+from foldmill_fabricate.kinds import FlipKind
 from foldmill_fabricate.ladders import Bars, Ladder, LadderKind, Rung, Side, Vernier, Words
 from foldmill_fabricate.materials import Material
 from foldmill_fabricate.passes import Face, Flip, Sheet
@@ -54,7 +54,6 @@ ROWS = (5, 3)
 along the other."""
 LARGE = 250.0
 """mm. On a smaller board a wrong scale shows less, and fewer verniers do."""
-FlipKind = Literal["left-right", "end-over-end"]
 LEAST = 160.0
 """mm. The least side of a board: bars and verniers fill it."""
 TITLES: dict[LadderKind, str] = {

@@ -10,12 +10,12 @@ import numpy as np
 from foldmill import Assignment, CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
 from foldmill_fabricate.coupon import layout, setups
-from foldmill_fabricate.coupon.layout import FlipKind
 from foldmill_fabricate.coupon.lines import lines
 from foldmill_fabricate.coupon.trials import trials
+from foldmill_fabricate.kinds import FlipKind, Kind
 from foldmill_fabricate.ladders import Coupon, Lettering, Side
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Kind, Material, Perforation, Score
+from foldmill_fabricate.materials import Material, Perforation, Score
 from foldmill_fabricate.passes import Face, Flip, Placement, Plan
 from foldmill_fabricate.plan import lead_ins, processes, registration, rules, two_sides
 from foldmill_fabricate.plan.figures import measure

@@ -19,6 +19,7 @@ from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.ladders import Coupon, LadderKind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, Perforation
+from foldmill_fabricate.names import PLAN
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plan import relief
 from foldmill_fabricate.presets_text import written
@@ -44,7 +45,7 @@ class Recorded:
 def read(path: Path) -> tuple[Plan, Coupon, Answers]:
     """Read a coupon's folder, or the answers in it; raises UnreadableFile with line and reason."""
     file = path / NAME if path.is_dir() else path
-    plan = _plan(file.parent / "plan.json")
+    plan = _plan(file.parent / PLAN)
     if plan.coupon is None:
         raise UnreadableFile(f"{file.parent} holds the job of a fold, not a coupon's.")
     try:

@@ -17,9 +17,9 @@ from foldmill.finding import Severity
 from foldmill_fabricate.errors import CannotSend
 from foldmill_fabricate.foreign.plan import Use, plan_drawing, write_drawing
 from foldmill_fabricate.foreign.read import read
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.verify import verify_folder
 from foldmill_fabricate.writers import require_writer, usual_formats

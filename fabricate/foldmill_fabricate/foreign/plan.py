@@ -21,9 +21,9 @@ from foldmill_fabricate.errors import CannotPlan, DoesNotFit
 from foldmill_fabricate.foreign import limits, overlaps
 from foldmill_fabricate.foreign.nesting import inside_first
 from foldmill_fabricate.foreign.read import Drawing
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, Perforation
-from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import (
     XY,
     Face,

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from foldmill_fabricate.materials.processes import Kind
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.passes import Face, Operation, Plan, Role, SetUp, Stroke
 from foldmill_fabricate.profiles import Layer, Layers, Profile, find
 from foldmill_fabricate.sheet import flipped

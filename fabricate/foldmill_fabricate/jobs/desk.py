@@ -1,7 +1,8 @@
 """What may be done with jobs: one set of verbs for the terminal, the HTTP API and scripts.
 
 It reads and writes the store; whoever works on the jobs hears of it there. ``client`` offers the
-same verbs over HTTP.
+same verbs over HTTP. What only some verbs need is loaded by those: who lists jobs waits for no
+planner.
 """
 
 from __future__ import annotations
@@ -9,22 +10,21 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from foldmill_fabricate import shelf
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.jobs.errors import JobRefused
-from foldmill_fabricate.jobs.judging import judge
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.plans import Plans
 from foldmill_fabricate.jobs.plotters import Plotter, find
-from foldmill_fabricate.jobs.rest import plan_rest_elsewhere
 from foldmill_fabricate.jobs.rows import About, person
 from foldmill_fabricate.jobs.states import JobState
 from foldmill_fabricate.jobs.store import JobStore
 from foldmill_fabricate.jobs.values import Happening, JobRecord, Question, Reply, Rest, Submission
 from foldmill_fabricate.plotter.ledger import SheetRecord, State
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.foreign import Asked
 
 
 class Jobs(Protocol):
@@ -110,6 +110,9 @@ class Desk:
 
         Raises UnknownName for its material or machine, or what ``foreign.make_folder`` raises.
         """
+        from foldmill_fabricate import shelf
+        from foldmill_fabricate.foreign import make_folder
+
         of, on = shelf.material(asked.material), shelf.machine(asked.machine)
         with tempfile.TemporaryDirectory(prefix="foldmill-") as place:
             make_folder(content, asked, of, on, Path(place) / "job")
@@ -158,6 +161,8 @@ class Desk:
 
     def answer(self, question: str, reply: Reply, who: str = "") -> None:
         """Answer a question, once; what cannot be is refused with its sentence."""
+        from foldmill_fabricate.jobs.judging import judge
+
         asked = self.store.question(question)
         job = self.store.job(asked.job)
         judge(asked, reply, lambda: self.plans.plan(job.plan), self.store.ledger)
@@ -186,6 +191,8 @@ class Desk:
         Raises JobRefused for a job that has not ended or a sheet that is not its own, CannotPlan
         for what cannot be made.
         """
+        from foldmill_fabricate.jobs.rest import plan_rest_elsewhere
+
         job = self.store.job(name)
         sheet = said.sheet.upper() or (job.sheets[-1] if job.sheets else "")
         if not job.is_ended:

@@ -8,15 +8,17 @@ from __future__ import annotations
 import shutil
 from collections.abc import Collection
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from foldmill_fabricate.errors import CannotSend
-from foldmill_fabricate.folder import PLAN
 from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.keeping import KEEP_DAYS, Keeping
 from foldmill_fabricate.jobs.rows import About
-from foldmill_fabricate.passes import Plan
+from foldmill_fabricate.names import JOB_SHEET, PATTERN, PLAN
 from foldmill_fabricate.space import keeping
+
+if TYPE_CHECKING:
+    from foldmill_fabricate.passes import Plan
 
 _MOST_TOLD = 1000
 """Plans that are remembered, some hundred bytes each."""
@@ -100,6 +102,8 @@ def about(plan: Plan) -> About:
 
 
 def _read(folder: Path) -> Plan:
+    from foldmill_fabricate.passes import Plan
+
     try:
         return Plan.model_validate_json((folder / PLAN).read_bytes())
     except (OSError, ValueError):
@@ -110,12 +114,12 @@ def _read(folder: Path) -> Plan:
 
 def _copy(plan: Plan, folder: Path, draft: Path) -> None:
     """Copy the files that a plan names; those that prove it must be there."""
-    pattern = ["pattern.fold"] if plan.whole.source is None else []  # else there is none
+    pattern = [PATTERN] if plan.whole.source is None else []  # else there is none
     named = [PLAN, *pattern, *(part.name for part in plan.programs)]
     for name in named:
         if Path(name).name != name or not (folder / name).is_file():
             raise CannotSend(f"{folder} has no {name}: plan it again.")
-    more = ["job-sheet.pdf", *plan.drawings]
+    more = [JOB_SHEET, *plan.drawings]
     for name in (*named, *(each for each in more if Path(each).name == each)):
         if (folder / name).is_file():
             shutil.copyfile(folder / name, draft / name)

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
-from foldmill_fabricate.materials.processes import Kind
+from foldmill_fabricate.kinds import FlipKind, Kind
 from foldmill_fabricate.presets import INFORMATION, Preset, Sourced
 from foldmill_fabricate.units import (
     Deg,
@@ -272,7 +272,7 @@ class TwoSides(Preset):
     """How far it lies up."""
     angle: Deg = Field(0.0, ge=-2, le=2)
     """By how much it is turned counter-clockwise."""
-    flip: Literal["left-right", "end-over-end"] = "left-right"
+    flip: FlipKind = "left-right"
     """How the sheet was turned when this was measured; it says nothing of the other way."""
     measured: str = Field("", json_schema_extra=INFORMATION)
     """When, by whom and with what it was measured; empty where it never was."""

@@ -13,17 +13,6 @@ from pydantic import Field
 from foldmill_fabricate.presets import Preset
 from foldmill_fabricate.units import Deg, GramForce, Mm, MmPerSecond
 
-Kind = Literal[
-    "half-cut",
-    "crease-wheel",
-    "stylus",
-    "perforation",
-    "v-score",
-    "through-cut",
-    "score-and-snap",
-    "pen",
-]
-"""Every process there is."""
 ScoreFace = Literal["outside", "inside", "either"]
 
 

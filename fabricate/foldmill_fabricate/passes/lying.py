@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from foldmill_fabricate.kinds import FlipKind, RegistrationKind
 from foldmill_fabricate.passes.strokes import Face
 from foldmill_fabricate.passes.value import XY, Value
 
@@ -19,7 +20,7 @@ class Placement(Value):
 class Flip(Value):
     """How the sheet is turned over, about an axis of the blank."""
 
-    kind: Literal["left-right", "end-over-end"]
+    kind: FlipKind
     axis: float
     """X0 for left-right (x' = 2·X0 − x), Y0 for end-over-end (y' = 2·Y0 − y), mm."""
 
@@ -71,9 +72,6 @@ class Stop(Value):
     x: float
     """Where it touches, carrier coordinates, mm."""
     y: float
-
-
-RegistrationKind = Literal["holes", "l-marks", "edge", "pins", "none"]
 
 
 class Register(Value):

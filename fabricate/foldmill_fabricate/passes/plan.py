@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer
 
 from foldmill.finding import Finding
+from foldmill_fabricate.kinds import Unassigned
 from foldmill_fabricate.ladders import Coupon
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
@@ -92,7 +93,7 @@ class Plan(Value):
     copies: tuple[Placement, ...] = ()
     """Of the second copy, the third …"""
     flip: Flip
-    unassigned: Literal["front", "reverse", "skip"] | None = None
+    unassigned: Unassigned | None = None
     """On which face U creases are scored; None where there are none."""
     holes: tuple[Hole, ...]
     """Registration holes; with pins, those that go over them."""

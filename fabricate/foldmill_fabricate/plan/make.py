@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +15,10 @@ from foldmill.exchange import fold as fold_file
 from foldmill.finding import Finding, Severity
 from foldmill.slits import sewn
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.kinds import FlipKind, Kind, RegistrationKind, Unassigned
 from foldmill_fabricate.machines import Machine
-from foldmill_fabricate.materials import Kind, Material
-from foldmill_fabricate.passes import Face, Flip, Hole, Plan, RegistrationKind, Sheet
+from foldmill_fabricate.materials import Material
+from foldmill_fabricate.passes import Face, Flip, Hole, Plan, Sheet
 from foldmill_fabricate.plan import (
     blanks,
     budget,
@@ -42,7 +42,6 @@ from foldmill_fabricate.sheet import placed, seated
 
 Floats = NDArray[np.float64]
 ByFace = dict[Face, NDArray[np.intp]]
-FlipKind = Literal["left-right", "end-over-end"]
 
 
 def make(
@@ -55,7 +54,7 @@ def make(
     blank: tuple[float, float] | None = None,
     carrier: tuple[float, float] | None = None,
     flip: FlipKind = "left-right",
-    unassigned: sides.Unassigned | None = None,
+    unassigned: Unassigned | None = None,
     relief: relief_holes.Relief = "none",
     copies: int = 1,
     grid: tuple[int, int] | None = None,

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from typing import TypeVar
 
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material, Process, ThroughCut
-from foldmill_fabricate.materials.processes import AnyCut, AnyScore, Kind
+from foldmill_fabricate.materials.processes import AnyCut, AnyScore
 
 P = TypeVar("P", AnyScore, AnyCut)
 

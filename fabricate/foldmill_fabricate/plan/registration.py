@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from foldmill.finding import Finding, Severity
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.kinds import RegistrationKind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Holes, Material
 from foldmill_fabricate.passes import (
@@ -23,7 +24,6 @@ from foldmill_fabricate.passes import (
     Hole,
     Mark,
     Register,
-    RegistrationKind,
     Sheet,
     Stroke,
 )

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
 
 from foldmill import Assignment, CreasePattern
 from foldmill_fabricate.errors import CannotPlan
+from foldmill_fabricate.kinds import Unassigned
 from foldmill_fabricate.materials import Score
 from foldmill_fabricate.passes import Face
 
-Unassigned = Literal["front", "reverse", "skip"]
 Indices = NDArray[np.intp]
 
 

@@ -11,6 +11,7 @@ from foldmill_fabricate import folder
 from foldmill_fabricate.choosing import fit_on_record
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.machines import Machine
+from foldmill_fabricate.names import PATTERN
 from foldmill_fabricate.passes import Plan
 from foldmill_fabricate.plotter.ledger import Ledger
 from foldmill_fabricate.profiles import Style
@@ -33,7 +34,7 @@ def write_remake(
             f"{output} is the folder that the sheet was begun from; write the rest into another."
         )
     if plan.whole.source is None:
-        fold = fold_file.read((origin / folder.PATTERN).read_text("utf-8"), folder.PATTERN)
+        fold = fold_file.read((origin / PATTERN).read_text("utf-8"), PATTERN)
     else:
         fold = Fold(CreasePattern.from_lines([], [], [], []))
     return folder.write(fold, plan, output, formats, style)

@@ -20,8 +20,9 @@ from foldmill_fabricate.service.models import (
     Upload,
     Verification,
 )
+from foldmill_fabricate.service.names import AS_CUT, JOB, PATTERN
 from foldmill_fabricate.service.sandbox import Sandbox
-from foldmill_fabricate.service.storage import ABOUT, JOB, Storage, read, write
+from foldmill_fabricate.service.storage import ABOUT, Storage, read, write
 
 WORK = "foldmill_fabricate.service.work"
 DRAWINGS = {
@@ -32,7 +33,6 @@ DRAWINGS = {
     "folded.obj": "model/obj",
 }
 """What a pattern can be drawn as, and its media type."""
-PATTERN = "pattern.fold"
 _SHEET = TypeAdapter(SheetRecord)
 CHECK, VERIFIED = "check.json", "verified.json"
 READING = Limits(seconds=30, memory_mb=1024, file_mb=128)
@@ -106,7 +106,7 @@ class Desk:
         arguments = {"job": str(job), "face": face, "sheet": told}
         async with self.folder() as folder:
             await self.call("as_cut", arguments, folder, DESIGNING, "The drawing")
-            return (folder / "as-cut.svg").read_bytes()
+            return (folder / AS_CUT).read_bytes()
 
     async def call(
         self, name: str, arguments: Mapping[str, Any], folder: Path, limits: Limits, what: str

@@ -22,11 +22,12 @@ from foldmill_fabricate.jobs.errors import NoSuchJob
 from foldmill_fabricate.jobs.plans import Plans as Kept
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.service.desk import DRAWN, PATTERN, Desk
+from foldmill_fabricate.service.desk import DRAWN, Desk
 from foldmill_fabricate.service.models import KeptPlan, PlanRequest, PlanState, PlanStatus
+from foldmill_fabricate.service.names import JOB, PATTERN
 from foldmill_fabricate.service.problems import LOG, NoSuch
 from foldmill_fabricate.service.sandbox import SandboxFailed, TooBusy
-from foldmill_fabricate.service.storage import DONE, JOB, REFUSED, REQUEST, read, write
+from foldmill_fabricate.service.storage import DONE, REFUSED, REQUEST, read, write
 from foldmill_fabricate.space import DiskFull, keeping
 from foldmill_fabricate.writers import usual_formats
 

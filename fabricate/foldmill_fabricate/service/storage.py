@@ -15,11 +15,11 @@ from typing import Any
 
 from foldmill_fabricate.files import write_whole
 from foldmill_fabricate.jobs.keeping import KEEP_DAYS, Keeping
+from foldmill_fabricate.service.names import PATTERN
 from foldmill_fabricate.service.problems import NoSuch
 
 ABOUT, REQUEST = "about.json", "request.json"
 DONE, REFUSED = "done.json", "refused.json"
-JOB = "job"
 
 
 class Storage:
@@ -55,7 +55,7 @@ class Storage:
     def keep_pattern(self, made: Path, about: dict[str, Any]) -> None:
         """Keep a pattern that was made in a folder of work; that folder is gone afterwards."""
         write(made / ABOUT, about)
-        for other in {entry.name for entry in made.iterdir()} - {ABOUT, "pattern.fold"}:
+        for other in {entry.name for entry in made.iterdir()} - {ABOUT, PATTERN}:
             (made / other).unlink()
         self._patterns.settle(made, about["id"])
         shutil.rmtree(made, ignore_errors=True)

@@ -31,6 +31,7 @@ from foldmill_fabricate.foreign import Asked, make_folder
 from foldmill_fabricate.importing.reading import read_pattern, require_answers
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
+from foldmill_fabricate.names import PLAN
 from foldmill_fabricate.passes import Face, Plan
 from foldmill_fabricate.pictures.as_cut_svg import as_cut_svg
 from foldmill_fabricate.plan import make
@@ -39,11 +40,11 @@ from foldmill_fabricate.plotter.ledger import SheetRecord
 from foldmill_fabricate.profiles import Style
 from foldmill_fabricate.service import unpacking
 from foldmill_fabricate.service.bounds import MOST_UPLOAD
+from foldmill_fabricate.service.names import AS_CUT, JOB, PATTERN, UPLOAD
 from foldmill_fabricate.verify import read_folder, verify_folder
 
 LIMITS = Limits(size=MOST_UPLOAD)
 """Of a file that is uploaded."""
-PATTERN, UPLOAD, AS_CUT = "pattern.fold", "upload", "as-cut.svg"
 SHEET = TypeAdapter(SheetRecord)
 MOST_TOLD, LONGEST = 1000, 300
 """Figures and findings, and letters of a title: a stranger's file may bring a million of them."""
@@ -110,8 +111,8 @@ def plan(
     of, on = Material.model_validate(material), Machine.model_validate(machine)
     fold = _fold(folder)
     made = make(fold, of, on, **PlanOptions.model_validate(options).for_make())
-    written = job_folder.write(fold, made, folder / "job", formats, style)
-    return _account(written, folder / "job")
+    written = job_folder.write(fold, made, folder / JOB, formats, style)
+    return _account(written, folder / JOB)
 
 
 def _account(plan: Plan, folder: Path) -> dict[str, Any]:
@@ -134,7 +135,7 @@ def _account(plan: Plan, folder: Path) -> dict[str, Any]:
 
 def verify(folder: Path) -> dict[str, Any]:
     """Verify the job folder ``job``."""
-    found = verify_folder(folder / "job")
+    found = verify_folder(folder / JOB)
     return {
         "ok": found.ok,
         "figures": asdict(found.figures),
@@ -147,13 +148,13 @@ def unpack(folder: Path) -> dict[str, Any]:
 
     Raises UnreadableFile for what is no job folder, CannotSend for one that does not verify.
     """
-    unpacking.unpack(folder / UPLOAD, folder / "job")
-    found = verify_folder(folder / "job")
+    unpacking.unpack(folder / UPLOAD, folder / JOB)
+    found = verify_folder(folder / JOB)
     if not found.ok:
         first = next(each for each in found.findings if each.severity is Severity.ERROR)
         raise CannotSend(f"This job folder does not verify, and nothing of it is kept. {first}")
-    plan = Plan.model_validate_json((folder / "job" / "plan.json").read_bytes())
-    return _whole_account(plan, folder / "job")
+    plan = Plan.model_validate_json((folder / JOB / PLAN).read_bytes())
+    return _whole_account(plan, folder / JOB)
 
 
 def drawn(
@@ -168,8 +169,8 @@ def drawn(
     """
     data = (folder / UPLOAD).read_bytes()
     of, on = Material.model_validate(material), Machine.model_validate(machine)
-    plan = make_folder(data, Asked.model_validate(asked), of, on, folder / "job")
-    return _whole_account(plan, folder / "job")
+    plan = make_folder(data, Asked.model_validate(asked), of, on, folder / JOB)
+    return _whole_account(plan, folder / JOB)
 
 
 def _whole_account(plan: Plan, folder: Path) -> dict[str, Any]:

@@ -354,6 +354,7 @@ HEAVY = {
         (["--version"], set()),
         (["plan", "--help"], {"pydantic"}),  # Typer asks it of a command's options
         (["job", "list", "--help"], {"pydantic"}),
+        (["job", "list"], {"pydantic", "sqlalchemy"}),
         (["families"], {"numpy", "pydantic"}),
         (["machines"], {"numpy", "pydantic"}),
         (["design", "rotational", "-o", "a.fold"], {"numpy", "pydantic", "scipy", "shapely"}),

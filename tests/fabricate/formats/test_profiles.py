@@ -18,7 +18,7 @@ from foldmill_fabricate import profiles
 from foldmill_fabricate.cli.app import app
 from foldmill_fabricate.formats import dxf, svg
 from foldmill_fabricate.formats.drawing import layer_of
-from foldmill_fabricate.materials.processes import Kind
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.passes import Face, Role
 from foldmill_fabricate.profiles import Style
 

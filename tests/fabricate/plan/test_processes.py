@@ -14,9 +14,9 @@ from foldmill import Assignment, CreasePattern, Fold
 from foldmill_fabricate import shelf
 from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.formats import hpgl
+from foldmill_fabricate.kinds import Kind
 from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.materials import Material
-from foldmill_fabricate.materials.processes import Kind
 from foldmill_fabricate.passes import Face, Operation, Plan, Role, Stroke
 from foldmill_fabricate.plan import make
 from foldmill_fabricate.sheet import placed

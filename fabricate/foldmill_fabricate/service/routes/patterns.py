@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
 
 from foldmill_fabricate.service.callers import Submitter, Viewer
-from foldmill_fabricate.service.desk import DRAWINGS, PATTERN, Desk
+from foldmill_fabricate.service.desk import DRAWINGS, Desk
 from foldmill_fabricate.service.ids import PatternId
 from foldmill_fabricate.service.models import (
     DesignRequest,
@@ -16,6 +16,7 @@ from foldmill_fabricate.service.models import (
     Report,
     Upload,
 )
+from foldmill_fabricate.service.names import PATTERN
 from foldmill_fabricate.service.receiving import receive
 from foldmill_fabricate.service.routes.answers import (
     CHANGING,
@@ -57,8 +58,7 @@ async def upload(
 ) -> Pattern:
     """Upload a pattern: the body is the file, as JSON or as application/octet-stream."""
     async with at.folder() as folder:
-        with (folder / "upload").open("wb") as file:
-            await receive(request, file)
+        await receive(request, folder)
         return _made(await at.read(folder, said), response)
 
 

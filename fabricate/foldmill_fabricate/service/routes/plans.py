@@ -68,8 +68,7 @@ async def keep(
     It is verified as a whole; one that is not what it says is refused.
     """
     async with at.folder() as folder:
-        with (folder / "upload").open("wb") as file:
-            await receive(request, file)
+        await receive(request, folder)
         return await those.keep(folder)
 
 
@@ -88,8 +87,7 @@ async def draw(
     our own writers and verified.
     """
     async with at.folder() as folder:
-        with (folder / "upload").open("wb") as file:
-            await receive(request, file, MOST_DRAWING)
+        await receive(request, folder, MOST_DRAWING)
         return await those.draw(folder, asked)
 
 
