@@ -28,19 +28,17 @@ def describe(plan: Plan) -> str:
         **({"copies": str(plan.quantity)} if plan.quantity > 1 else {}),
         "turned by": f"{plan.placement.angle:g}°",
         "drawn": f"{figures.drawn / 1000:.2f} m in {figures.strokes} strokes",
-        "travel": f"{figures.travel / 1000:.2f} m{gap(figures)}",
+        "travel": f"{figures.travel / 1000:.2f} m{least(figures)}",
         "time": f"{figures.seconds / 60:.1f} min without the operator's",
     }
     return "\n".join([table(rows), figure_lines(facts), finding_lines(plan.findings)])
 
 
-def gap(figures: Figures) -> str:
+def least(figures: Figures) -> str:
     """Say below what length travel is proved not to go, in any order; empty where unknown."""
-    above, bound = figures.travel_gap, figures.travel_bound
-    if above is None:
+    if figures.travel_gap is None:
         return ""
-    share = f", {100 * above / bound:.1f} % below" if above < bound else ""
-    return f"; no order travels less than {bound / 1000:.2f} m{share}"
+    return f"; no order travels less than {figures.travel_bound / 1000:.2f} m"
 
 
 def next_steps(plan: Plan, folder: Path) -> str:

@@ -12,9 +12,8 @@ from slit_forms import form
 
 from foldmill import CreasePattern, Fold
 from foldmill.exchange import fold as fold_file
-from foldmill_fabricate.cli.account import gap
 from foldmill_fabricate.cli.app import main
-from foldmill_fabricate.passes import Figures, Plan
+from foldmill_fabricate.passes import Plan
 
 
 @pytest.fixture
@@ -94,7 +93,7 @@ def test_copies_are_planned_counted_and_verified(
     assert "copies" not in told
 
 
-def test_the_plan_says_how_far_its_travel_is_above_what_no_order_goes_below(
+def test_the_plan_says_below_what_no_order_travels(
     job: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "job", "--json") == 0
@@ -105,12 +104,6 @@ def test_the_plan_says_how_far_its_travel_is_above_what_no_order_goes_below(
     assert foldmill("plan", "stool.fold", "--to", "hpgl", "-o", "again") == 0
     said = capsys.readouterr().out
     assert f"m; no order travels less than {figures['travel_bound'] / 1000:.2f} m\n" in said
-
-
-def test_a_small_gap_is_told_as_a_share_too() -> None:
-    known = Figures(strokes=2, lifts=2, drawn=9, travel=1030, travel_bound=1000, seconds=1)
-    assert gap(known) == "; no order travels less than 1.00 m, 3.0 % below"
-    assert gap(known.model_copy(update={"travel_bound": 0})) == ""
 
 
 @pytest.mark.parametrize(
