@@ -10,7 +10,9 @@ from foldmill_fabricate.errors import CannotPlan
 from foldmill_fabricate.jobs.elsewhere import Late, Silent, done, serve
 from foldmill_fabricate.jobs.places import Places
 from foldmill_fabricate.jobs.values import Rest
+from foldmill_fabricate.machines import Machine
 from foldmill_fabricate.plotter.ledger import Ledger
+from foldmill_fabricate.writers import require_writer, usual_formats
 
 _PATIENCE = 3600.0
 """s after which planning is given up."""
@@ -43,10 +45,18 @@ def _planned(order: dict[str, Any]) -> dict[str, str]:
     ledger = Ledger(Places(Path(order["root"]), order["database"]).ledger)
     origin, folder = Path(order["origin"]), Path(order["folder"])
     try:
-        remaking.plan_rest(ledger, order["sheet"], origin, folder, said.doubtful, said.half)
+        remaking.plan_rest(
+            ledger, order["sheet"], origin, folder, said.doubtful, said.half, _formats
+        )
     finally:
         ledger.close()
     return {}
+
+
+def _formats(machine: Machine) -> list[str]:
+    """Return the formats of a job's folder; raises CannotPlan where none of them is a program."""
+    require_writer(machine)
+    return usual_formats(machine)
 
 
 if __name__ == "__main__":

@@ -11,11 +11,13 @@ import hmac
 import json
 import re
 import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from filelock import FileLock
+from filelock import FileLock, Timeout
 
 from foldmill.errors import InvalidInput, UnknownName, UnreadableFile
 from foldmill_fabricate.files import write_whole
@@ -25,6 +27,8 @@ MARK = "foldmill_"
 """What each begins with, so that it is known wherever it stands."""
 TOKEN = re.compile(rf"{MARK}[A-Za-z0-9_-]{{20,}}")
 """A token, or most of one."""
+_PATIENCE = 10.0
+"""s for which another may be at it."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}")
 
 
@@ -103,10 +107,23 @@ class Tokens:
                 found = token
         return found
 
-    def _alone(self) -> FileLock:
-        """Keep others from changing them: what was revoked meanwhile must not be written back."""
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Keep others from changing them: what was revoked meanwhile must not be written back.
+
+        Raises UnreadableFile where another does not let go of them.
+        """
         self._file.parent.mkdir(parents=True, exist_ok=True)
-        return FileLock(f"{self._file}.lock", mode=0o600)
+        lock = FileLock(f"{self._file}.lock", timeout=_PATIENCE, mode=0o600)
+        try:
+            lock.acquire()
+        except (Timeout, OSError) as error:
+            raise UnreadableFile(
+                f"{self._file} cannot be changed: {error}. Does another command do so, or another "
+                "user? Try again when it has ended."
+            ) from None
+        with lock:
+            yield
 
     def _read(self) -> tuple[Token, ...]:
         try:

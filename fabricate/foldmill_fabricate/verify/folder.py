@@ -17,7 +17,7 @@ from foldmill_fabricate.passes import Fit, Plan
 from foldmill_fabricate.verify.planned import SUFFIXES
 from foldmill_fabricate.verify.verification import Verification, verify
 
-PLAN = "plan.json"
+PLAN = "plan.json"  # its own word for it, as for all that it proves
 PATTERN = "pattern.fold"
 _NO_PATTERN = CreasePattern.from_lines([], [], [], [])
 

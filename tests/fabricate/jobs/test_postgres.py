@@ -10,11 +10,14 @@ from threading import Event
 import pytest
 from fabricate.jobs import postgres
 from fabricate.jobs.workshop import workshop
+from sqlalchemy import func, select
 
 from foldmill_fabricate.jobs import Desk, JobState, Places, Submission, rows
 from foldmill_fabricate.jobs.errors import Clash, JobRefused
 from foldmill_fabricate.jobs.host import Host
 from foldmill_fabricate.jobs.plotters import Plotter
+from foldmill_fabricate.jobs.tables import JOBS
+from foldmill_fabricate.plotter.ledger.tables import reading
 
 pytestmark = postgres.NEEDED
 MACHINE = "generic-hpgl-600"
@@ -82,3 +85,17 @@ def test_no_event_is_missed_by_who_follows_while_many_write(tmp_path: Path, data
         following.result()
     desk.store.close()
     assert len(heard) == len(set(heard)) == len(names) * (1 + rounds)
+
+
+def test_what_is_read_in_one_go_is_of_one_moment(tmp_path: Path, database: str) -> None:
+    """Else a sheet that ends between two statements is listed as one that is under work."""
+    store = Desk(Places(tmp_path, database), {}).store
+    about = rows.About(title="a", material="b", machine="c")
+    asked = Submission(plan="0" * 64, plotter="bench")
+    store.submit(asked, about)
+    with reading(store._engine) as at:
+        assert at.execute(select(func.count()).select_from(JOBS)).scalar() == 1
+        store.submit(asked, about)
+        assert at.execute(select(func.count()).select_from(JOBS)).scalar() == 1
+    assert len(store.jobs()) == 2
+    store.close()

@@ -138,4 +138,7 @@ def _immediate(connection: Any) -> None:
 
 def reading(engine: Engine) -> AbstractContextManager[Connection]:
     """Begin a transaction that only reads: it sees one moment, and keeps no writer waiting."""
-    return engine.execution_options(**{_READS: True}).begin()
+    options: dict[str, Any] = {_READS: True}
+    if engine.dialect.name == "postgresql":
+        options["isolation_level"] = "REPEATABLE READ"  # else each statement sees its own moment
+    return engine.execution_options(**options).begin()
