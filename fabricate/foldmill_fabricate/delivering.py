@@ -31,6 +31,7 @@ from foldmill_fabricate.plotter.ledger import (
     State,
     Word,
     account,
+    devices,
 )
 from foldmill_fabricate.plotter.ledger.alone import alone, alone_on, by_hand, own_ledger
 from foldmill_fabricate.plotter.ledger.guarding import Lying, guarded
@@ -239,13 +240,10 @@ class _Work:
 
     def _warning(self) -> str:
         """Say what may lie in the machine, where something broke off that nobody has spoken of."""
-        bench = self.bench
-        last = self.ledger.last_on(bench.device)
-        machine, answers = bench.job.plan.machine, self.ledger.answers(self.sheet)
-        if not self.record.runs and trials.is_broken_off(answers, self.number):
-            return recovery.half(machine)
-        of_another = last is not None and last.sheet != self.sheet
-        return recovery.left_in(machine, last) if of_another else ""
+        left = self.ledger.broken_off(self.bench.device)
+        if left is None or (left.sheet == self.sheet and not left.is_trial):
+            return ""  # of this sheet's own programs it is asked anyway
+        return recovery.half(self.bench.job.plan.machine)
 
     def try_presets(self) -> None:
         """Cut in the waste what nobody has tried, before anything of the part is cut so."""
@@ -270,9 +268,11 @@ class _Work:
             program = make(bench.job, self.part.face, setup, attempt)
             told = {"set-up": setup.name, "attempt": attempt + 1}
             self.ledger.answer(self.sheet, self.number, trials.BEGUN, told, bench.operator.who)
+            self.ledger.on_device(self.sheet, self.number, devices.TRYING, bench.device)
             delivery = self._send_trial(program)
             if delivery.fault:
                 raise CannotSend(f"The test cut for {setup.name} went wrong. {delivery.fault}")
+            self.ledger.on_device(self.sheet, self.number, devices.TRIED, bench.device)
             verdict = bench.operator.judge(request)
             told = told | {"verdict": verdict.value}
             self.ledger.answer(self.sheet, self.number, trials.JUDGED, told, bench.operator.who)

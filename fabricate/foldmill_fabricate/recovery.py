@@ -17,7 +17,7 @@ from foldmill_fabricate.plotter import resume
 from foldmill_fabricate.plotter.errors import LedgerRefused
 from foldmill_fabricate.plotter.handshakes.hp import DROPS
 from foldmill_fabricate.plotter.languages import made_ready, spoken
-from foldmill_fabricate.plotter.ledger import Record, Said, State, Word
+from foldmill_fabricate.plotter.ledger import Record, Said, Word
 from foldmill_fabricate.plotter.program import PART
 from foldmill_fabricate.plotter.program import Job as Program
 from foldmill_fabricate.plotter.resume import Start
@@ -26,8 +26,6 @@ from foldmill_fabricate.sending import Job
 
 _FEW = 3
 """Strokes that are told one by one."""
-_BROKEN_OFF = frozenset({State.RUNNING, State.INTERRUPTED, State.SPOILED})
-"""States of a program whose last instruction may be sent in half."""
 
 
 @dataclass(frozen=True)
@@ -56,11 +54,6 @@ def standing(job: Job, part: ProgramFile, record: Record, port: Any) -> Place:
     if start is not None:
         return Place(start, where)
     return Place(None, f"{where} {_told(program, last.acked, last.sent, found, machine)}".strip())
-
-
-def left_in(machine: Machine, last: Record | None) -> str:
-    """Say what may lie in a machine, and what to do; last : the program begun last on it."""
-    return half(machine) if last is not None and last.state in _BROKEN_OFF else ""
 
 
 def half(machine: Machine) -> str:

@@ -48,12 +48,6 @@ def begun(answers: Iterable[Answered], setup: SetUp) -> int:
     return sum(one.gate == BEGUN and one.told["set-up"] == setup.name for one in answers)
 
 
-def is_broken_off(answers: Iterable[Answered], number: int) -> bool:
-    """Tell whether the last test cut before a program was begun, and nobody has looked at it."""
-    last = [one for one in answers if one.gate in {BEGUN, JUDGED} and "attempt" in one.told][-1:]
-    return any(one.gate == BEGUN and one.number == number for one in last)
-
-
 def trial_program(job: Job, face: Face, setup: SetUp, attempt: int = 0) -> bytes:
     """Return the program of a test cut for a set-up, proved.
 

@@ -161,19 +161,31 @@ def read_step(text: str) -> tuple[float, float]:
 def _led(port: str, machine: Machine, command: str) -> Iterator[Jogger]:
     """Hold a machine's lock, open its port and lead it about; a signal stops it.
 
-    Where a program was broken off on it and half an instruction may be left, a person says first
-    that it is gone: the first hop would end it, with the tool down.
+    Where something was broken off on it and half an instruction may be left, a person says first
+    that it is gone, once: the first hop would end it, with the tool down.
     """
     from foldmill_fabricate import recovery
     from foldmill_fabricate.delivering import own_ledger
     from foldmill_fabricate.jogging import Jogger
     from foldmill_fabricate.plotter import link
     from foldmill_fabricate.plotter.ledger.alone import alone, by_hand
+    from foldmill_fabricate.plotter.ledger.devices import EMPTIED
 
     ledger = own_ledger(port)
     with stopping_on_signals(), alone(port, by_hand(command), ledger) as device:
-        warning = recovery.left_in(machine, ledger.last_on(device))
-        if warning and not typer.confirm(f"{warning}\nIs that done?", err=True):
-            raise FoldmillError("Nothing was sent. Do that first, then ask again.")
+        left = ledger.broken_off(device)
+        if left and (warning := recovery.half(machine)):
+            _require_done(warning)
+            ledger.on_device(left.sheet, left.number, EMPTIED, device)
         with link.open_port(port, machine) as opened:
             yield Jogger(opened, machine)
+
+
+def _require_done(warning: str) -> None:
+    """Ask whether what a warning demands is done; raises FoldmillError where it is not."""
+    try:
+        is_done = typer.confirm(f"{warning}\nIs that done?", err=True)
+    except typer.Abort:
+        is_done = False
+    if not is_done:
+        raise FoldmillError("Nothing was sent. Do that first, then ask again at a terminal.")

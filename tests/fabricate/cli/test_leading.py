@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from foldmill_fabricate.cli.leading import read_step
 from foldmill_fabricate.delivering import send_job
 from foldmill_fabricate.jogging import expected_marks
 from foldmill_fabricate.passes import Face
-from foldmill_fabricate.plotter.ledger import Ledger, Program
+from foldmill_fabricate.plotter.ledger import Ledger, Program, State, devices
+from foldmill_fabricate.plotter.ledger.run import Run as Sending
 from foldmill_fabricate.plotter.lock import device_of
 from foldmill_fabricate.sheet import turned
 
@@ -38,34 +40,96 @@ def test_a_step_is_made_within_the_limits_only(foldmill: Run) -> None:
     assert "5.00 mm beyond what generic-hpgl-600 reaches" in told.err
 
 
-@pytest.mark.parametrize(
-    ("slug", "word", "code"),
-    [("roland-like-600", "", 2), ("roland-like-600", "yes", 0), ("generic-hpgl-600", "", 0)],
-)
-def test_who_leads_a_machine_on_which_a_program_broke_off_says_first_that_nothing_is_left_in_it(
-    foldmill: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, slug: str, word: str, code: int
-) -> None:
-    """The first hop would end half an instruction; one that can drop it is told to."""
-    small_job(Path("job"), small_plan(slug))
-    ledger = Ledger(tmp_path / "ledger.sqlite")
-    monkeypatch.setattr("foldmill_fabricate.delivering.own_ledger", lambda _url, _who="": ledger)
-    url = f"sim://broken-off-{code}?machine={slug}"
-    programs = [Program("1-front-score.hpgl", "front", "b" * 64, 9)]
-    sheet = ledger.lay("a" * 64, programs, title="Star", machine=slug, material="pp-0.75").id
-    ledger.claim(sheet, 0, device_of(url)).advance(3, 1)
+@pytest.fixture
+def confirmed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What a person was asked to confirm, and has."""
     asked: list[str] = []
 
     def confirm(text: str, **_: object) -> bool:
         asked.append(text)
-        return word == "yes"
+        return True
 
     monkeypatch.setattr("typer.confirm", confirm)
-    told = foldmill("frame", "job", "--port", url)
-    assert told.code == code, told.err
-    assert [("switch the machine off and on" in text) for text in asked] == (
-        [] if slug == "generic-hpgl-600" else [True]
-    )
-    assert ("Traced" in told.out) == (code == 0)
+    return asked
+
+
+class Left:
+    """A machine on which something was broken off, and the ledger that knows."""
+
+    def __init__(self, place: Path, monkeypatch: pytest.MonkeyPatch, slug: str) -> None:
+        small_job(Path("job"), small_plan(slug))
+        self.ledger = Ledger(place / "ledger.sqlite")
+        self.url = f"sim://{place.name}?machine={slug}"
+        self.words = ("frame", "job", "--port", self.url)
+        programs = [Program("1-front-score.hpgl", "front", "b" * 64, 9)]
+        lay = self.ledger.lay
+        self.sheet = lay("a" * 64, programs, title="Star", machine=slug, material="pp-0.75").id
+        own = "foldmill_fabricate.delivering.own_ledger"
+        monkeypatch.setattr(own, lambda _url, _who="": self.ledger)
+
+    def run(self, acked: int) -> Sending:
+        run = self.ledger.claim(self.sheet, 0, device_of(self.url))
+        run.advance(9, acked)
+        return run
+
+    def try_(self, what: str) -> None:
+        self.ledger.on_device(self.sheet, 0, what, device_of(self.url))
+
+
+@pytest.fixture
+def left(foldmill: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Left:
+    return Left(tmp_path, monkeypatch, "roland-like-600")
+
+
+def test_who_leads_a_machine_on_which_a_program_broke_off_says_once_that_nothing_is_left_in_it(
+    foldmill: Run, left: Left, confirmed: list[str]
+) -> None:
+    """The first hop would end half an instruction, with the tool down."""
+    left.run(acked=1)
+    assert foldmill(*left.words).code == foldmill(*left.words).code == 0
+    (asked,) = confirmed
+    assert "switch the machine off and on" in asked
+    assert "switched off and on" in left.ledger.history(left.sheet)[-1][2]
+
+
+def test_without_a_word_nothing_is_sent(
+    foldmill: Run, left: Left, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No terminal is there to say it at."""
+    monkeypatch.setattr("sys.stdin", io.StringIO(""))
+    left.run(acked=1)
+    told = foldmill(*left.words)
+    assert told.code == 2
+    assert "Nothing was sent." in told.err
+
+
+def test_a_test_cut_that_broke_off_is_asked_about_and_one_that_ended_is_not(
+    foldmill: Run, left: Left, confirmed: list[str]
+) -> None:
+    left.try_(devices.TRYING)
+    assert foldmill(*left.words).code == 0
+    left.try_(devices.TRYING)
+    left.try_(devices.TRIED)
+    assert foldmill(*left.words).code == 0
+    assert len(confirmed) == 1
+
+
+def test_a_sheet_that_was_given_up_after_its_program_had_ended_leaves_nothing_in_the_machine(
+    foldmill: Run, left: Left, confirmed: list[str]
+) -> None:
+    left.run(acked=9).end(State.DONE)
+    left.ledger.give_up(left.sheet)
+    assert foldmill(*left.words).code == 0
+    assert confirmed == []
+
+
+def test_a_machine_that_drops_half_an_instruction_is_told_to(
+    foldmill: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, confirmed: list[str]
+) -> None:
+    left = Left(tmp_path, monkeypatch, "generic-hpgl-600")
+    left.run(acked=1)
+    assert foldmill(*left.words).code == 0
+    assert confirmed == []
 
 
 def test_marks_measured_by_jogging_fit_the_reverse_and_are_kept_for_the_sheet(

@@ -14,7 +14,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from foldmill_fabricate.plotter.errors import Fenced, LedgerFailed, LedgerRefused, Spoiled
 from foldmill_fabricate.plotter.holding import Holder
-from foldmill_fabricate.plotter.ledger import origins, reading, sharing, words, writing
+from foldmill_fabricate.plotter.ledger import devices, origins, reading, sharing, words, writing
 from foldmill_fabricate.plotter.ledger.advancing import Advance
 from foldmill_fabricate.plotter.ledger.origins import GoesOn, Origin
 from foldmill_fabricate.plotter.ledger.places import ledger_file as ledger_file
@@ -166,10 +166,15 @@ class Ledger:
         """Return one program of a sheet."""
         return self.sheet(sheet).records[number]
 
-    def last_on(self, device: str) -> Record | None:
-        """Return the program that was begun last on a device, of whatever sheet."""
+    def broken_off(self, device: str) -> devices.BrokenOff | None:
+        """Return what was broken off on a device, of whatever sheet, and is not settled since."""
         with reading_of(self._engine) as at:
-            return reading.last_on(at, device)
+            return devices.broken_off(at, device)
+
+    def on_device(self, sheet: str, number: int, what: str, device: str) -> None:
+        """Add to a sheet's history what went to a device beside its programs, or was done there."""
+        with self._engine.begin() as at:
+            note(at, self._now(), sheet, number, devices.told(what, device), self._who)
 
     def history(self, sheet: str) -> list[tuple[str, str, str]]:
         """Return what happened to a sheet: (when, who, what), the oldest first."""
@@ -202,8 +207,8 @@ class Ledger:
                 begun = {"first": row.first, "sent": row.first, "acked": row.first}
                 place = {"sheet": sheet, "number": number, "token": token, "vertex": row.vertex}
                 at.execute(insert(RUNS).values(device=device, **place, **begun))
-                told = f"{reading.BEGUN}{row.first + 1} on {device}"
-                note(at, self._now(), sheet, number, told, self._who)
+                begins = devices.told(f"{devices.BEGUN}{row.first + 1}", device)
+                note(at, self._now(), sheet, number, begins, self._who)
                 return Run(self, sheet, number, token, row.first, row.strokes)
         raise LedgerRefused(not_ready(self.recover(sheet, number)))
 

@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import Connection, Row, Select, exists, select
 
 from foldmill_fabricate.plotter.errors import LedgerRefused
-from foldmill_fabricate.plotter.ledger.tables import ANSWERS, AUDIT, PROGRAMS, RUNS, SHEETS
+from foldmill_fabricate.plotter.ledger.tables import ANSWERS, PROGRAMS, RUNS, SHEETS
 from foldmill_fabricate.plotter.ledger.values import (
     Answered,
     Entry,
@@ -17,9 +17,6 @@ from foldmill_fabricate.plotter.ledger.values import (
     SheetRecord,
     State,
 )
-
-BEGUN = "begun at stroke "
-"""What the history says, before the stroke and the device, where a run begins."""
 
 
 def at_program(sheet: str, number: int) -> Any:
@@ -72,12 +69,9 @@ def _record(at: Connection, row: Row[Any]) -> Record:
     return Record(row.sheet, row.number, program, State(row.state), *way, runs)
 
 
-def last_on(at: Connection, device: str) -> Record | None:
-    """Return the program that was begun last on a device."""
-    begun = AUDIT.c.what.startswith(BEGUN) & AUDIT.c.what.endswith(f" on {device}", autoescape=True)
-    wanted = select(AUDIT.c.sheet, AUDIT.c.number).where(begun).order_by(AUDIT.c.id.desc())
-    found = at.execute(wanted.limit(1)).first()
-    return _record(at, program_row(at, found.sheet, found.number)) if found else None
+def record_of(at: Connection, sheet: str, number: int) -> Record:
+    """Return one program of a sheet; raises LedgerRefused where there is none."""
+    return _record(at, program_row(at, sheet, number))
 
 
 def answers(at: Connection, sheet: str) -> list[Answered]:
