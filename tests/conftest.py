@@ -24,7 +24,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--soak", action="store_true", help="run long suites whole")
 
 
-SAMPLE, WHOLE = 3, 3000
+SAMPLE, WHOLE = 4, 3000
 """Of long tests one in so many is run, where so many tests are collected that it is all of them."""
 
 

@@ -52,6 +52,7 @@ def verdicts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     return readers.judged(written(tmp_path_factory.mktemp("presets"), 10**6))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("family", "preset"), EVERY)
 def test_rabbit_ear_finds_no_fault_and_fold_the_same_faces(
     family: str, preset: str, verdicts: dict[str, Any]

@@ -121,6 +121,7 @@ def without_touching(pairs: Pairs, triangles: np.ndarray, size: float) -> Pairs:
     return {(int(a), int(b)) for a, b in numbers[through]}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("meshes", [rotational, six_crease, tuck, heaps])
 def test_a_collision_library_finds_the_same_facets_passing_through_each_other(
     meshes: Callable[[], Iterator[Mesh]],

@@ -23,6 +23,7 @@ def test_six_crease(check: Check) -> None:
     check()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("check", design_checks(waterbomb.DESIGN), ids=str)
 def test_waterbomb(check: Check) -> None:
     check()

@@ -33,6 +33,7 @@ def kinds(plan: Plan) -> list[str]:
     return [ladder.kind for ladder in declared(plan).ladders]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("case", CASES, ids=lambda case: "-".join(map(str, case.values())) or "pp")
 def test_a_coupon_is_proved_like_any_job(case: dict[str, Any]) -> None:
     fold, plan = coupon(**case)

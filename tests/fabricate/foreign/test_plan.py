@@ -73,6 +73,7 @@ def test_its_lines_lie_in_the_middle_of_the_blank_as_in_the_file() -> None:
     assert roles == [Role.SCORE, Role.CUT_INNER, Role.CUT_OUTER]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slug", [ONE_TOOL, PENS, KNIFE, "grbl-drag-knife", "silhouette-like"])
 def test_it_is_written_proved_and_cut_like_any_other_job(slug: str, tmp_path: Path) -> None:
     plan = planned(slug)

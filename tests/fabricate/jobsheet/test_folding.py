@@ -46,6 +46,7 @@ def written(name: str) -> bytes:
     return jobsheet.write(plan, SHEETS[name])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SHEETS)
 def test_every_kind_of_crease_is_on_paper_with_its_angle(name: str, tmp_path: Path) -> None:
     fold = SHEETS[name]

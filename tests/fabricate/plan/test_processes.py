@@ -80,6 +80,7 @@ def drawn_at(plan: Plan, face: Face, start: np.ndarray, end: np.ndarray) -> bool
     return any(drawn_on(np.array(stroke.points), start, step) for stroke in scores(plan, face))
 
 
+@pytest.mark.long
 @EVERY
 @settings(max_examples=8)
 @given(letters=st.text("MV", min_size=3, max_size=7), turn=st.floats(5, 25))

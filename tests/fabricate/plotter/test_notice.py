@@ -50,6 +50,7 @@ def ended(port: Any, machine: Machine, seconds: float, happens: Callable[[], obj
     return time.monotonic() - when[0]
 
 
+@pytest.mark.long
 @SHUT
 @DAEMON
 @pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff", "enq-ack", "none"])

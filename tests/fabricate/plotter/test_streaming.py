@@ -28,6 +28,7 @@ def assert_whole(trial: Trial) -> None:
     assert trial.traffic.errors[OVERLAP] <= 10
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("handshake", "baud", "buffer", "acceleration"),
     [

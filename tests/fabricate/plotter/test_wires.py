@@ -24,6 +24,7 @@ Make = Callable[..., Machine]
 PROGRAM = fine_lines(5_000, 8)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("serve", [serve_pty, serve_tcp])
 @pytest.mark.parametrize("handshake", ["esc-b", "xon-xoff"])
 def test_a_program_arrives_byte_for_byte_over_a_real_wire(

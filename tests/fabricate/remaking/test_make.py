@@ -67,6 +67,7 @@ CASES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("slug", "number", "after"), CASES)
 def test_the_union_of_both_is_the_plan_and_nothing_lies_there_twice(
     jobs: Jobs, slug: str, number: int, after: int, ledger: Ledger, tmp_path: Path

@@ -47,6 +47,7 @@ def lying(job: Job) -> list[Job]:
     return [job, job.fitted([(x + 0.4, y - 0.3) for x, y in seen.tolist()])]
 
 
+@pytest.mark.long
 def test_every_stroke_is_the_one_that_verification_sees_drawn(job: Job) -> None:
     """Verification reads the bytes and knows nothing of how they were written."""
     for each in lying(job):

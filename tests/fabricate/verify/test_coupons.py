@@ -10,6 +10,7 @@ from foldmill_fabricate.formats import hpgl
 from foldmill_fabricate.verify import verify
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CORRUPTIONS)
 def test_a_corrupted_coupon_is_named(name: str) -> None:
     change, code = CORRUPTIONS[name]

@@ -65,6 +65,7 @@ def test_a_reverse_fitted_to_its_marks_is_proved_like_any_other() -> None:
     assert errors(verified(fitted))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("spoil", "code"), KNIFE_JOBS.items(), ids=sentence)
 def test_it_is_found_that(spoil: Callable[[Job], Job], code: str) -> None:
     assert code in errors(verified(spoil(knife_job.job(0.25))))

@@ -44,6 +44,7 @@ def test_a_drag_knifes_good_job_is_good(offset: float, tongue: str) -> None:
     assert not verified(told(knife_job.job(offset), tongue)).findings
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tongue", ["gp-gl", "z"])
 @pytest.mark.parametrize(("spoil", "code"), KNIFE_JOBS.items(), ids=sentence)
 def test_it_is_found_of_a_drag_knife_that(
